@@ -1379,7 +1379,7 @@ module incircle_stream_top_link$bus$registers$identity(index,value,is_known);
     localparam  coord_bits = 32'h10;
     localparam  capacity = 32'h800;
     localparam  contexts = 32'h410;
-    localparam  ring_capacity = 32'h20;
+    localparam  ring_capacity = 32'h20020;
     localparam  beat_bits = 32'h40;
     localparam  fifo_beats = 32'h200;
     
@@ -5561,14 +5561,14 @@ module incircle_stream_top_engines$slot0(clock,reset,push,routed,has_room,is_fre
     wire  queue$command$valid;
     reg  queue$command$ready;
     wire  [31:0] queue$command$data;
-    reg  [4:0] owed$d;
-    wire  [4:0] owed$q;
+    reg  [8:0] owed$d;
+    wire  [8:0] owed$q;
     reg  owed$clock;
     
     // Local signals
     reg  begins;
     reg  ends;
-    reg  [4:0] one;
+    reg  [8:0] one;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core core(
@@ -5675,19 +5675,19 @@ module incircle_stream_top_engines$slot0$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -5707,8 +5707,8 @@ module incircle_stream_top_engines$slot0$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -5951,61 +5951,40 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
-    reg  [32:0] range_end$d;
-    wire  [32:0] range_end$q;
-    reg  range_end$clock;
-    reg  [14:0] range_bound$d;
-    wire  [14:0] range_bound$q;
-    reg  range_bound$clock;
-    reg  [31:0] triple$d;
-    wire  [31:0] triple$q;
-    reg  triple$clock;
-    reg  counts_none$d;
-    wire  counts_none$q;
-    reg  counts_none$clock;
+    reg  range$clock;
+    reg  [73:0] range$request;
+    reg  [14:0] range$records;
+    wire  range$is_outside;
+    wire  range$has_none;
+    wire  [16:0] range$whole_length;
+    wire  [16:0] range$packed_length;
     reg  [2:0] insert_status$d;
     wire  [2:0] insert_status$q;
     reg  insert_status$clock;
-    reg  is_outside$d;
-    wire  is_outside$q;
-    reg  is_outside$clock;
-    reg  [31:0] read_length$d;
-    wire  [31:0] read_length$q;
-    reg  read_length$clock;
-    reg  [31:0] packed_length$d;
-    wire  [31:0] packed_length$q;
-    reg  packed_length$clock;
-    reg  reads_none$d;
-    wire  reads_none$q;
-    reg  reads_none$clock;
     reg  [2:0] report_status$d;
     wire  [2:0] report_status$q;
     reg  report_status$clock;
     reg  [2:0] answer_status$d;
     wire  [2:0] answer_status$q;
     reg  answer_status$clock;
-    reg  [31:0] answer_length$d;
-    wire  [31:0] answer_length$q;
+    reg  [16:0] answer_length$d;
+    wire  [16:0] answer_length$q;
     reg  answer_length$clock;
     reg  has_none$d;
     wire  has_none$q;
     reg  has_none$clock;
     
     // Local signals
-    reg  [32:0] wide_first;
-    reg  [32:0] wide_count;
-    reg  [32:0] wide_bound;
-    reg  [31:0] double_count;
     reg  [31:0] status;
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
@@ -6013,61 +5992,27 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
     reg  [31:0] wide_engine;
     reg  [31:0] shifted_engine;
     reg  [31:0] job;
-    reg  [31:0] none;
-    reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
     
     // Sub module instances
-    incircle_stream_top_engines$slot0$core$answer_head$range_end range_end(
-        .d(range_end$d),
-        .q(range_end$q),
-        .clock(range_end$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$range_bound range_bound(
-        .d(range_bound$d),
-        .q(range_bound$q),
-        .clock(range_bound$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$triple triple(
-        .d(triple$d),
-        .q(triple$q),
-        .clock(triple$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$counts_none counts_none(
-        .d(counts_none$d),
-        .q(counts_none$q),
-        .clock(counts_none$clock)
+    incircle_stream_top_engines$slot0$core$answer_head$range range(
+        .clock(range$clock),
+        .request(range$request),
+        .records(range$records),
+        .is_outside(range$is_outside),
+        .has_none(range$has_none),
+        .whole_length(range$whole_length),
+        .packed_length(range$packed_length)
     );
     incircle_stream_top_engines$slot0$core$answer_head$insert_status insert_status(
         .d(insert_status$d),
         .q(insert_status$q),
         .clock(insert_status$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$is_outside is_outside(
-        .d(is_outside$d),
-        .q(is_outside$q),
-        .clock(is_outside$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$read_length read_length(
-        .d(read_length$d),
-        .q(read_length$q),
-        .clock(read_length$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$packed_length packed_length(
-        .d(packed_length$d),
-        .q(packed_length$q),
-        .clock(packed_length$clock)
-    );
-    incircle_stream_top_engines$slot0$core$answer_head$reads_none reads_none(
-        .d(reads_none$d),
-        .q(reads_none$q),
-        .clock(reads_none$clock)
     );
     incircle_stream_top_engines$slot0$core$answer_head$report_status report_status(
         .d(report_status$d),
@@ -6092,46 +6037,24 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
     
     // Update code
     always @(*) begin
-        range_end$clock = clock;
-        range_bound$clock = clock;
-        triple$clock = clock;
-        counts_none$clock = clock;
         insert_status$clock = clock;
-        range_end$d = range_end$q;
-        range_bound$d = range_bound$q;
-        triple$d = triple$q;
-        counts_none$d = counts_none$q;
-        insert_status$d = insert_status$q;
-        is_outside$clock = clock;
-        read_length$clock = clock;
-        packed_length$clock = clock;
-        reads_none$clock = clock;
         report_status$clock = clock;
-        is_outside$d = is_outside$q;
-        read_length$d = read_length$q;
-        packed_length$d = packed_length$q;
-        reads_none$d = reads_none$q;
-        report_status$d = report_status$q;
         answer_status$clock = clock;
         answer_length$clock = clock;
         has_none$clock = clock;
+        insert_status$d = insert_status$q;
+        report_status$d = report_status$q;
         answer_status$d = answer_status$q;
         answer_length$d = answer_length$q;
         has_none$d = has_none$q;
-        none = 32'h0;
-        one = 32'h1;
+        range$clock = clock;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
-        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
-        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        range_end$d = wide_first + wide_count;
-        range_bound$d = records;
-        double_count = request[(64'h28)+:(32)] << one;
-        triple$d = double_count + request[(64'h28)+:(32)];
-        counts_none$d = request[(64'h28)+:(32)] == none;
+        range$request = request;
+        range$records = records;
         insert_status$d = 32'h0;
         if (some_refused) begin
             insert_status$d = 32'h4;
@@ -6142,12 +6065,6 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         if (stuck) begin
             insert_status$d = 32'h6;
         end
-        wide_bound = ((range_bound$q) & 33'h1ffffffff);
-        is_outside$d = range_end$q > wide_bound;
-        read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
-        reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
         answer_length$d = 32'h0;
@@ -6171,9 +6088,9 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
                 end
             4:
                 begin
-                    answer_length$d = read_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$whole_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -6189,9 +6106,9 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
                 end
             7:
                 begin
-                    answer_length$d = packed_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$packed_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -6205,8 +6122,10 @@ module incircle_stream_top_engines$slot0$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
-        head[(64'h20)+:(32)] = answer_length$q;
+        head[(64'h20)+:(32)] = ((answer_length$q) & 32'hffffffff);
         head[(64'h40)+:(1)] = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
         shifted_status = status << status_shift;
@@ -6224,13 +6143,13 @@ endmodule // incircle_stream_top_engines$slot0$core$answer_head
 module incircle_stream_top_engines$slot0$core$answer_head$answer_length(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [16:0] d;
+    output reg  [16:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 17'h0;
     end
     
     always @(posedge clock) begin
@@ -6257,25 +6176,6 @@ module incircle_stream_top_engines$slot0$core$answer_head$answer_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$answer_head$answer_status
-
-
-module incircle_stream_top_engines$slot0$core$answer_head$counts_none(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$counts_none
 
 
 module incircle_stream_top_engines$slot0$core$answer_head$has_none(d,q,clock);
@@ -6316,45 +6216,174 @@ module incircle_stream_top_engines$slot0$core$answer_head$insert_status(d,q,cloc
 endmodule // incircle_stream_top_engines$slot0$core$answer_head$insert_status
 
 
-module incircle_stream_top_engines$slot0$core$answer_head$is_outside(d,q,clock);
+module incircle_stream_top_engines$slot0$core$answer_head$range(clock,request,records,is_outside,has_none,whole_length,packed_length);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
     input wire  clock;
+    input wire  [73:0] request;
+    input wire  [14:0] records;
+    output reg  is_outside;
+    output reg  has_none;
+    output reg  [16:0] whole_length;
+    output reg  [16:0] packed_length;
     
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
+    // Stub signals
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
+    reg  [14:0] bound$d;
+    wire  [14:0] bound$q;
+    reg  bound$clock;
+    reg  counts_none$d;
+    wire  counts_none$q;
+    reg  counts_none$clock;
+    reg  [16:0] triple$d;
+    wire  [16:0] triple$q;
+    reg  triple$clock;
+    reg  [16:0] number$d;
+    wire  [16:0] number$q;
+    reg  number$clock;
+    reg  [16:0] enlarged$d;
+    wire  [16:0] enlarged$q;
+    reg  enlarged$clock;
+    reg  outside$d;
+    wire  outside$q;
+    reg  outside$clock;
+    reg  reads_none$d;
+    wire  reads_none$q;
+    reg  reads_none$clock;
+    reg  [16:0] whole$d;
+    wire  [16:0] whole$q;
+    reg  whole$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
+    
+    // Local signals
+    reg  [32:0] wide_first;
+    reg  [32:0] wide_count;
+    reg  [32:0] wide_bound;
+    reg  [31:0] none;
+    reg  [14:0] few;
+    reg  [16:0] count;
+    reg  [16:0] more;
+    reg  [16:0] added;
+    reg  [16:0] one;
+    reg  [16:0] three;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot0$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$bound bound(
+        .d(bound$d),
+        .q(bound$q),
+        .clock(bound$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$counts_none counts_none(
+        .d(counts_none$d),
+        .q(counts_none$q),
+        .clock(counts_none$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$enlarged enlarged(
+        .d(enlarged$d),
+        .q(enlarged$q),
+        .clock(enlarged$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$outside outside(
+        .d(outside$d),
+        .q(outside$q),
+        .clock(outside$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$reads_none reads_none(
+        .d(reads_none$d),
+        .q(reads_none$q),
+        .clock(reads_none$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$whole whole(
+        .d(whole$d),
+        .q(whole$q),
+        .clock(whole$clock)
+    );
+    incircle_stream_top_engines$slot0$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        range_end$clock = clock;
+        bound$clock = clock;
+        counts_none$clock = clock;
+        triple$clock = clock;
+        number$clock = clock;
+        enlarged$clock = clock;
+        range_end$d = range_end$q;
+        bound$d = bound$q;
+        counts_none$d = counts_none$q;
+        triple$d = triple$q;
+        number$d = number$q;
+        enlarged$d = enlarged$q;
+        outside$clock = clock;
+        reads_none$clock = clock;
+        whole$clock = clock;
+        vertices$clock = clock;
+        outside$d = outside$q;
+        reads_none$d = reads_none$q;
+        whole$d = whole$q;
+        vertices$d = vertices$q;
+        none = 32'h0;
+        one = 32'h1;
+        three = 32'h3;
+        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
+        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
+        range_end$d = wide_first + wide_count;
+        bound$d = records;
+        counts_none$d = request[(64'h28)+:(32)] == none;
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        count = ((few) & 17'h1ffff);
+        triple$d = count + (count << one);
+        number$d = count;
+        added = 32'h1;
+        if (request[(64'h48)+:(1)]) begin
+            added = 32'h7;
+        end
+        enlarged$d = count + added;
+        wide_bound = ((bound$q) & 33'h1ffffffff);
+        outside$d = range_end$q > wide_bound;
+        reads_none$d = counts_none$q;
+        whole$d = triple$q;
+        more = enlarged$q >> one;
+        if (request[(64'h48)+:(1)]) begin
+            more = enlarged$q >> three;
+            if (~request[(64'h49)+:(1)]) begin
+                more = 32'h0;
+            end
+        end
+        vertices$d = number$q + more;
+        is_outside = outside$q;
+        has_none = reads_none$q;
+        whole_length = whole$q;
+        packed_length = vertices$q;
     end
     
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$is_outside
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range
 
 
-module incircle_stream_top_engines$slot0$core$answer_head$packed_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$packed_length
-
-
-module incircle_stream_top_engines$slot0$core$answer_head$range_bound(d,q,clock);
+module incircle_stream_top_engines$slot0$core$answer_head$range$bound(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -6370,48 +6399,10 @@ module incircle_stream_top_engines$slot0$core$answer_head$range_bound(d,q,clock)
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$range_bound
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$bound
 
 
-module incircle_stream_top_engines$slot0$core$answer_head$range_end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$range_end
-
-
-module incircle_stream_top_engines$slot0$core$answer_head$read_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$read_length
-
-
-module incircle_stream_top_engines$slot0$core$answer_head$reads_none(d,q,clock);
+module incircle_stream_top_engines$slot0$core$answer_head$range$counts_none(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -6427,7 +6418,159 @@ module incircle_stream_top_engines$slot0$core$answer_head$reads_none(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$reads_none
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$counts_none
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$enlarged(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$enlarged
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$number
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$outside(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$outside
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$range_end(d,q,clock);
+    
+    // Module arguments
+    input wire  [32:0] d;
+    output reg  [32:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 33'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$range_end
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$reads_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$reads_none
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$triple
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$vertices
+
+
+module incircle_stream_top_engines$slot0$core$answer_head$range$whole(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$answer_head$range$whole
 
 
 module incircle_stream_top_engines$slot0$core$answer_head$report_status(d,q,clock);
@@ -6447,25 +6590,6 @@ module incircle_stream_top_engines$slot0$core$answer_head$report_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$answer_head$report_status
-
-
-module incircle_stream_top_engines$slot0$core$answer_head$triple(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$answer_head$triple
 
 
 module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
@@ -6504,6 +6628,7 @@ module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core$answer_words$identity identity(
@@ -6533,6 +6658,7 @@ module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -6569,7 +6695,7 @@ module incircle_stream_top_engines$slot0$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -6671,7 +6797,7 @@ module incircle_stream_top_engines$slot0$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -6688,8 +6814,8 @@ module incircle_stream_top_engines$slot0$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -6835,6 +6961,8 @@ module incircle_stream_top_engines$slot0$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -7408,13 +7536,13 @@ endmodule // incircle_stream_top_engines$slot0$core$command_port$gate
 module incircle_stream_top_engines$slot0$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -29728,8 +29856,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -29784,6 +29912,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -29842,6 +29972,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -29886,6 +30018,8 @@ module incircle_stream_top_engines$slot0$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -29986,7 +30120,7 @@ module incircle_stream_top_engines$slot0$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot0$core$responder$offered
 
 
-module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -29995,6 +30129,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -30008,6 +30144,12 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -30028,6 +30170,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -30051,6 +30195,16 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot0$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -30083,6 +30237,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -30104,6 +30260,11 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -30111,7 +30272,6 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -30122,6 +30282,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = is_packed & has_short_ids;
+        rests_follow$d = is_packed & has_short_ids & has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -30142,6 +30304,8 @@ module incircle_stream_top_engines$slot0$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -30178,6 +30342,25 @@ module incircle_stream_top_engines$slot0$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$is_second(d,q,clock);
@@ -30275,6 +30458,25 @@ module incircle_stream_top_engines$slot0$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot0$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot0$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -30294,7 +30496,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -30302,6 +30504,8 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -30322,14 +30526,19 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
+    wire  [3:0] halves$rest;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
+    reg  [3:0] packer$rest;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -30367,7 +30576,9 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
-        .halves(halves$halves)
+        .has_short_ids(halves$has_short_ids),
+        .halves(halves$halves),
+        .rest(halves$rest)
     );
     incircle_stream_top_engines$slot0$core$responder$records$stream$packer packer(
         .clock(packer$clock),
@@ -30375,8 +30586,11 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
+        .rest(packer$rest),
         .valid(packer$valid),
         .beat(packer$beat)
     );
@@ -30413,9 +30627,13 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
+        packer$rest = halves$rest;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -30441,13 +30659,15 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves,rest);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
+    output reg  [3:0] rest;
     
     // Stub signals
     reg  [90:0] kept$d;
@@ -30468,6 +30688,13 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [3:0] two_bits;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core$responder$records$stream$halves$kept kept(
@@ -30482,6 +30709,13 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two_bits = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -30507,7 +30741,12 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+            end
         end
+        rest = ((vertex1[(32'ha)+:(2)]) & 4'hf) | (((vertex2[(32'ha)+:(2)]) & 4'hf) << two_bits);
     end
     
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$halves
@@ -30562,7 +30801,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,rest,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -30570,17 +30809,20 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
+    input wire  [3:0] rest;
     output reg  valid;
     output reg  [65:0] beat;
     
     // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -30589,31 +30831,38 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [2:0] number$d;
-    wire  [2:0] number$q;
-    reg  number$clock;
     reg  [63:0] kept$d;
     wire  [63:0] kept$q;
     reg  kept$clock;
-    reg  many_are_kept$d;
-    wire  many_are_kept$q;
-    reg  many_are_kept$clock;
-    reg  [14:0] left$d;
-    wire  [14:0] left$q;
-    reg  left$clock;
-    reg  is_last$d;
-    wire  is_last$q;
-    reg  is_last$clock;
-    reg  all_came$d;
-    wire  all_came$q;
-    reg  all_came$clock;
+    reg  number$clock;
+    reg  number$reset;
+    reg  number$vertices_alone;
+    reg  number$has_short_ids;
+    reg  number$comes;
+    reg  number$is_last;
+    reg  number$brings_rests;
+    reg  number$all_came;
+    wire  [2:0] number$number;
+    wire  number$fills;
+    wire  number$moves;
+    wire  number$both;
+    wire  number$last;
+    reg  group$clock;
+    reg  group$starts;
+    reg  [14:0] group$count;
+    reg  group$comes;
+    reg  [3:0] group$rest;
+    wire  group$is_last;
+    wire  group$ends_group;
+    wire  group$all_came;
+    wire  [31:0] group$rests;
     
     // Local signals
-    reg  takes;
+    reg  brings_rests;
+    reg  [15:0] third;
+    reg  [15:0] fourth;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
-    reg  [14:0] one;
-    reg  [14:0] two;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is_there is_there(
@@ -30626,170 +30875,133 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer(cl
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number number(
-        .d(number$d),
-        .q(number$q),
-        .clock(number$clock)
-    );
     incircle_stream_top_engines$slot0$core$responder$records$stream$packer$kept kept(
         .d(kept$d),
         .q(kept$q),
         .clock(kept$clock)
     );
-    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$many_are_kept many_are_kept(
-        .d(many_are_kept$d),
-        .q(many_are_kept$q),
-        .clock(many_are_kept$clock)
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number number(
+        .clock(number$clock),
+        .reset(number$reset),
+        .vertices_alone(number$vertices_alone),
+        .has_short_ids(number$has_short_ids),
+        .comes(number$comes),
+        .is_last(number$is_last),
+        .brings_rests(number$brings_rests),
+        .all_came(number$all_came),
+        .number(number$number),
+        .fills(number$fills),
+        .moves(number$moves),
+        .both(number$both),
+        .last(number$last)
     );
-    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
-    );
-    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is_last is_last(
-        .d(is_last$d),
-        .q(is_last$q),
-        .clock(is_last$clock)
-    );
-    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$all_came all_came(
-        .d(all_came$d),
-        .q(all_came$q),
-        .clock(all_came$clock)
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group group(
+        .clock(group$clock),
+        .starts(group$starts),
+        .count(group$count),
+        .comes(group$comes),
+        .rest(group$rest),
+        .is_last(group$is_last),
+        .ends_group(group$ends_group),
+        .all_came(group$all_came),
+        .rests(group$rests)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        number$clock = clock;
         kept$clock = clock;
-        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        number$d = number$q;
         kept$d = kept$q;
-        many_are_kept$d = many_are_kept$q;
-        left$clock = clock;
-        is_last$clock = clock;
-        all_came$clock = clock;
-        left$d = left$q;
-        is_last$d = is_last$q;
-        all_came$d = all_came$q;
-        one = 32'h1;
-        two = 32'h2;
+        number$clock = clock;
+        group$clock = clock;
         valid = is_there$q;
         beat = filled$q;
+        group$starts = starts;
+        group$count = count;
+        group$comes = comes;
+        group$rest = rest;
+        brings_rests = has_rests & group$ends_group;
+        number$reset = reset;
+        number$vertices_alone = vertices_alone;
+        number$has_short_ids = has_short_ids;
+        number$comes = comes;
+        number$is_last = group$is_last;
+        number$brings_rests = brings_rests;
+        number$all_came = group$all_came;
+        is_there$d = number$fills;
+        filled$d[(64'h40)+:(1)] = number$both;
+        filled$d[(64'h41)+:(1)] = number$last;
+        third = halves[(64'h20)+:(16)];
+        fourth = halves[(64'h30)+:(16)];
+        if (has_short_ids) begin
+            third = group$rests[(32'h0)+:(16)];
+            fourth = group$rests[(32'h10)+:(16)];
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
         kept$d[(64'h30)+:(16)] = 32'h0;
-        many_are_kept$d = 1'b0;
-        takes = comes;
-        is_there$d = comes;
-        filled$d[(64'h40)+:(1)] = 1'b1;
-        filled$d[(64'h41)+:(1)] = 1'b0;
-        case (number$q)
-            KeptHalves$Zero:
+        case (number$number)
+            KeptNumber$Zero:
                 begin
                     sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    sent[(64'h20)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = fourth;
                     kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
-                    number$d = KeptHalves$Two;
                     if (vertices_alone) begin
-                        is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Three;
+                        if (~has_short_ids) begin
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        end
                     end
                 end
-            KeptHalves$One:
+            KeptNumber$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
-                    filled$d[(64'h41)+:(1)] = is_last$q;
-                    number$d = KeptHalves$Zero;
                 end
-            KeptHalves$Two:
+            KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$One;
+                    kept$d[(64'h0)+:(16)] = third;
+                    if (has_short_ids | (~vertices_alone)) begin
+                        kept$d[(64'h10)+:(16)] = fourth;
+                    end
                     if (~vertices_alone) begin
-                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
                         kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Rest;
                     end
                 end
-            KeptHalves$Three:
+            KeptNumber$Three:
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
-                    takes = 1'b1;
-                    is_there$d = 1'b1;
-                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
-                    filled$d[(64'h41)+:(1)] = all_came$q;
-                    number$d = KeptHalves$Zero;
                 end
         endcase
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
-        if (comes) begin
-            left$d = left$q - one;
-            is_last$d = left$q == two;
-            all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
-                number$d = KeptHalves$Rest;
-            end
-        end
-        if (~takes) begin
-            number$d = number$q;
+        if (~number$moves) begin
             kept$d = kept$q;
-        end
-        if (starts) begin
-            left$d = count;
-            is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            number$d = KeptHalves$Zero;
         end
     end
     
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer
-
-
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$all_came(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$all_came
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$filled(d,q,clock);
@@ -30811,7 +31023,157 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$fi
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$filled
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is_last(d,q,clock);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group(clock,starts,count,comes,rest,is_last,ends_group,all_came,rests);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [3:0] rest;
+    output reg  is_last;
+    output reg  ends_group;
+    output reg  all_came;
+    output reg  [31:0] rests;
+    
+    // Stub signals
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  none_is_left$d;
+    wire  none_is_left$q;
+    reg  none_is_left$clock;
+    reg  [2:0] place$d;
+    wire  [2:0] place$q;
+    reg  place$clock;
+    reg  [31:0] earlier$d;
+    wire  [31:0] earlier$q;
+    reg  earlier$clock;
+    
+    // Local signals
+    reg  [31:0] together;
+    reg  ends;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [2:0] one_place;
+    reg  [2:0] last_place;
+    reg  [31:0] rest_bits;
+    reg  [31:0] rest_shift;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$none_is_left none_is_left(
+        .d(none_is_left$d),
+        .q(none_is_left$q),
+        .clock(none_is_left$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$earlier earlier(
+        .d(earlier$d),
+        .q(earlier$q),
+        .clock(earlier$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        left$clock = clock;
+        one_is_left$clock = clock;
+        none_is_left$clock = clock;
+        place$clock = clock;
+        earlier$clock = clock;
+        left$d = left$q;
+        one_is_left$d = one_is_left$q;
+        none_is_left$d = none_is_left$q;
+        place$d = place$q;
+        earlier$d = earlier$q;
+        one = 32'h1;
+        two = 32'h2;
+        one_place = 32'h1;
+        last_place = 32'h7;
+        rest_bits = 32'h4;
+        rest_shift = 32'h1c;
+        is_last = one_is_left$q;
+        all_came = none_is_left$q;
+        ends = one_is_left$q | (place$q == last_place);
+        ends_group = ends;
+        together = (earlier$q >> rest_bits) | (((rest) & 32'hffffffff) << rest_shift);
+        rests = together;
+        if (comes) begin
+            left$d = left$q - one;
+            one_is_left$d = left$q == two;
+            none_is_left$d = one_is_left$q;
+            place$d = place$q + one_place;
+            earlier$d = together;
+            if (ends) begin
+                earlier$d = 32'h0;
+            end
+        end
+        if (starts) begin
+            left$d = count;
+            one_is_left$d = count == one;
+            place$d = 32'h0;
+            earlier$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$earlier(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$earlier
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$left
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$none_is_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -30827,7 +31189,45 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is_last
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$none_is_left
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$one_is_left
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$group$place
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$is_there(d,q,clock);
@@ -30868,26 +31268,149 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$ke
 endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$kept
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$left(d,q,clock);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number(clock,reset,vertices_alone,has_short_ids,comes,is_last,brings_rests,all_came,number,fills,moves,both,last);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
     input wire  clock;
+    input wire  reset;
+    input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  comes;
+    input wire  is_last;
+    input wire  brings_rests;
+    input wire  all_came;
+    output reg  [2:0] number;
+    output reg  fills;
+    output reg  moves;
+    output reg  both;
+    output reg  last;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
+    
+    // Stub signals
+    reg  [2:0] kept$d;
+    wire  [2:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
+    
+    // Local signals
+    reg  [2:0] leaves;
+    reg  leaves_none;
+    reg  is_rest;
+    reg  takes;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        many_are_kept$clock = clock;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        number = kept$q;
+        is_rest = kept$q == KeptNumber$Rest;
+        takes = comes | is_rest;
+        moves = takes;
+        fills = takes;
+        leaves = KeptNumber$Zero;
+        case (kept$q)
+            KeptNumber$Zero:
+                begin
+                    if (~brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (vertices_alone) begin
+                        fills = comes & brings_rests;
+                        if (~has_short_ids) begin
+                            leaves = KeptNumber$Three;
+                        end
+                    end
+                end
+            KeptNumber$Two:
+                begin
+                    if (~has_short_ids) begin
+                        leaves = KeptNumber$One;
+                    end
+                    if (brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (~vertices_alone) begin
+                        leaves = KeptNumber$Rest;
+                    end
+                end
+            KeptNumber$Three:
+                begin
+                    leaves = KeptNumber$Two;
+                end
+            default:
+                begin
+                end
+        endcase
+        leaves_none = leaves == KeptNumber$Zero;
+        both = many_are_kept$q | (~is_rest);
+        last = is_last & leaves_none;
+        if (is_rest) begin
+            last = all_came;
+        end
+        if (takes) begin
+            many_are_kept$d = (leaves == KeptNumber$Three) | (leaves == KeptNumber$Rest);
+            kept$d = leaves;
+            if (is_last & (~leaves_none)) begin
+                kept$d = KeptNumber$Rest;
+            end
+        end
+        if (reset) begin
+            kept$d = KeptNumber$Zero;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$left
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number$kept
 
 
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$many_are_kept(d,q,clock);
+module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number$many_are_kept(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -30903,33 +31426,7 @@ module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$ma
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$many_are_kept
-
-
-module incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number
+endmodule // incircle_stream_top_engines$slot0$core$responder$records$stream$packer$number$many_are_kept
 
 
 module incircle_stream_top_engines$slot0$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -31263,8 +31760,8 @@ module incircle_stream_top_engines$slot0$core$responder$words(clock,reset,prepar
     reg  [6:0] following$d;
     wire  [6:0] following$q;
     reg  following$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
+    reg  [7:0] left$d;
+    wire  [7:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
@@ -31279,8 +31776,9 @@ module incircle_stream_top_engines$slot0$core$responder$words(clock,reset,prepar
     // Local signals
     reg  is_choosing;
     reg  [31:0] no_word;
-    reg  [31:0] one;
-    reg  [31:0] two;
+    reg  [7:0] words;
+    reg  [7:0] one;
+    reg  [7:0] two;
     reg  [6:0] one_word;
     
     // Sub module instances
@@ -31333,6 +31831,7 @@ module incircle_stream_top_engines$slot0$core$responder$words(clock,reset,prepar
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
+        words = length[(32'h0)+:(8)];
         index = loaded$q;
         index_ahead = following$q;
         valid = is_chosen$q;
@@ -31358,8 +31857,8 @@ module incircle_stream_top_engines$slot0$core$responder$words(clock,reset,prepar
         end
         if (starts) begin
             loaded$d = 32'h0;
-            left$d = length;
-            is_last$d = length == one;
+            left$d = words;
+            is_last$d = words == one;
         end
         if (reset) begin
             waited$d = 1'b0;
@@ -31430,13 +31929,13 @@ endmodule // incircle_stream_top_engines$slot0$core$responder$words$is_last
 module incircle_stream_top_engines$slot0$core$responder$words$left(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -31487,13 +31986,13 @@ endmodule // incircle_stream_top_engines$slot0$core$responder$words$waited
 module incircle_stream_top_engines$slot0$owed(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -31516,8 +32015,8 @@ module incircle_stream_top_engines$slot0$queue(clock,reset,push,word,has_room,co
     output reg  [31:0] command$data;
     
     // Stub signals
-    reg  [4:0] waiting$d;
-    wire  [4:0] waiting$q;
+    reg  [8:0] waiting$d;
+    wire  [8:0] waiting$q;
     reg  waiting$clock;
     reg  came$d;
     wire  came$q;
@@ -31535,8 +32034,8 @@ module incircle_stream_top_engines$slot0$queue(clock,reset,push,word,has_room,co
     
     // Local signals
     reg  takes;
-    reg  [4:0] one;
-    reg  [4:0] all;
+    reg  [8:0] one;
+    reg  [8:0] all;
     
     // Sub module instances
     incircle_stream_top_engines$slot0$queue$waiting waiting(
@@ -31574,7 +32073,7 @@ module incircle_stream_top_engines$slot0$queue(clock,reset,push,word,has_room,co
         newest$d = newest$q;
         words$clock = clock;
         one = 32'h1;
-        all = 32'h10;
+        all = 32'h100;
         has_room = waiting$q != all;
         came$d = push;
         newest$d = word;
@@ -31641,13 +32140,13 @@ endmodule // incircle_stream_top_engines$slot0$queue$newest
 module incircle_stream_top_engines$slot0$queue$waiting(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -31669,103 +32168,323 @@ module incircle_stream_top_engines$slot0$queue$words(clock,reset,push,push_data,
     output reg  [31:0] data;
     
     // Constant declarations
-    localparam  one = 4'h1;
-    localparam  nothing = 4'h0;
+    localparam  one = 8'h1;
+    localparam  one_place = 4'h1;
+    localparam  nothing = 8'h0;
+    localparam  first_place = 4'h0;
+    localparam  from_user = 1'b0;
+    localparam  from_ring = 1'b1;
     localparam  kept_bits = 32'hffffffff;
     
     // Stub signals
-    reg  entries$clock;
-    reg  [3:0] entries$write_address;
-    reg  [31:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [3:0] entries$read_address;
-    wire  [31:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [3:0] newest$d;
-    wire  [3:0] newest$q;
+    reg  ring$clock;
+    reg  ring$reset;
+    reg  [7:0] ring$write_address;
+    reg  [31:0] ring$write_data;
+    reg  ring$write_enable;
+    reg  [7:0] ring$read_address;
+    reg  ring$fetches;
+    reg  [3:0] ring$place;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [31:0] ring$fetched_data;
+    reg  new_bank$clock;
+    reg  [3:0] new_bank$write_address;
+    reg  [31:0] new_bank$write_data;
+    reg  new_bank$write_enable;
+    reg  [3:0] new_bank$read_address;
+    wire  [31:0] new_bank$read_data;
+    reg  fetched_bank$clock;
+    reg  [3:0] fetched_bank$write_address;
+    reg  [31:0] fetched_bank$write_data;
+    reg  fetched_bank$write_enable;
+    reg  [3:0] fetched_bank$read_address;
+    wire  [31:0] fetched_bank$read_data;
+    reg  was_fetched$clock;
+    reg  [3:0] was_fetched$write_address;
+    reg  was_fetched$write_data;
+    reg  was_fetched$write_enable;
+    reg  [3:0] was_fetched$read_address;
+    wire  was_fetched$read_data;
+    reg  holds_first$d;
+    wire  holds_first$q;
+    reg  holds_first$clock;
+    reg  passes$d;
+    wire  passes$q;
+    reg  passes$clock;
+    reg  [31:0] first$d;
+    wire  [31:0] first$q;
+    reg  first$clock;
+    reg  holds_more$d;
+    wire  holds_more$q;
+    reg  holds_more$clock;
+    reg  window_is_full$d;
+    wire  window_is_full$q;
+    reg  window_is_full$clock;
+    reg  holds_spilled$d;
+    wire  holds_spilled$q;
+    reg  holds_spilled$clock;
+    reg  [7:0] newest$d;
+    wire  [7:0] newest$q;
     reg  newest$clock;
-    reg  [3:0] oldest$d;
-    wire  [3:0] oldest$q;
-    reg  oldest$clock;
+    reg  [7:0] fetched$d;
+    wire  [7:0] fetched$q;
+    reg  fetched$clock;
+    reg  [3:0] after_first$d;
+    wire  [3:0] after_first$q;
+    reg  after_first$clock;
     
     // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [3:0] after_newest;
-    reg  [3:0] after_oldest;
+    reg  [31:0] kept_data;
+    reg  joins;
+    reg  moves_up;
+    reg  spills;
+    reg  enters;
+    reg  fetches;
+    reg  advances;
+    reg  [7:0] after_newest;
+    reg  [7:0] after_fetched;
+    reg  [3:0] after_moved;
+    reg  [3:0] place;
+    reg  [3:0] after_place;
     
     // Sub module instances
-    incircle_stream_top_engines$slot0$queue$words$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
+    incircle_stream_top_engines$slot0$queue$words$ring ring(
+        .clock(ring$clock),
+        .reset(ring$reset),
+        .write_address(ring$write_address),
+        .write_data(ring$write_data),
+        .write_enable(ring$write_enable),
+        .read_address(ring$read_address),
+        .fetches(ring$fetches),
+        .place(ring$place),
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
-    incircle_stream_top_engines$slot0$queue$words$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
+    incircle_stream_top_engines$slot0$queue$words$new_bank new_bank(
+        .clock(new_bank$clock),
+        .write_address(new_bank$write_address),
+        .write_data(new_bank$write_data),
+        .write_enable(new_bank$write_enable),
+        .read_address(new_bank$read_address),
+        .read_data(new_bank$read_data)
+    );
+    incircle_stream_top_engines$slot0$queue$words$fetched_bank fetched_bank(
+        .clock(fetched_bank$clock),
+        .write_address(fetched_bank$write_address),
+        .write_data(fetched_bank$write_data),
+        .write_enable(fetched_bank$write_enable),
+        .read_address(fetched_bank$read_address),
+        .read_data(fetched_bank$read_data)
+    );
+    incircle_stream_top_engines$slot0$queue$words$was_fetched was_fetched(
+        .clock(was_fetched$clock),
+        .write_address(was_fetched$write_address),
+        .write_data(was_fetched$write_data),
+        .write_enable(was_fetched$write_enable),
+        .read_address(was_fetched$read_address),
+        .read_data(was_fetched$read_data)
+    );
+    incircle_stream_top_engines$slot0$queue$words$holds_first holds_first(
+        .d(holds_first$d),
+        .q(holds_first$q),
+        .clock(holds_first$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$passes passes(
+        .d(passes$d),
+        .q(passes$q),
+        .clock(passes$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$holds_more holds_more(
+        .d(holds_more$d),
+        .q(holds_more$q),
+        .clock(holds_more$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$window_is_full window_is_full(
+        .d(window_is_full$d),
+        .q(window_is_full$q),
+        .clock(window_is_full$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$holds_spilled holds_spilled(
+        .d(holds_spilled$d),
+        .q(holds_spilled$q),
+        .clock(holds_spilled$clock)
     );
     incircle_stream_top_engines$slot0$queue$words$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_stream_top_engines$slot0$queue$words$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
+    incircle_stream_top_engines$slot0$queue$words$fetched fetched(
+        .d(fetched$d),
+        .q(fetched$q),
+        .clock(fetched$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$after_first after_first(
+        .d(after_first$d),
+        .q(after_first$q),
+        .clock(after_first$clock)
     );
     
     // Update code
     always @(*) begin
-        holds_entries$clock = clock;
+        holds_first$clock = clock;
+        passes$clock = clock;
+        first$clock = clock;
+        holds_more$clock = clock;
+        window_is_full$clock = clock;
+        holds_spilled$clock = clock;
+        holds_first$d = holds_first$q;
+        passes$d = passes$q;
+        first$d = first$q;
+        holds_more$d = holds_more$q;
+        window_is_full$d = window_is_full$q;
+        holds_spilled$d = holds_spilled$q;
         newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
+        fetched$clock = clock;
+        after_first$clock = clock;
         newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
+        fetched$d = fetched$q;
+        after_first$d = after_first$q;
+        ring$clock = clock;
+        new_bank$clock = clock;
+        fetched_bank$clock = clock;
+        was_fetched$clock = clock;
         after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
+        after_fetched = fetched$q + one;
+        after_moved = after_first$q + one_place;
+        place = fetched$q[(32'h0)+:(4)];
+        after_place = place + one_place;
+        kept_data = push_data & kept_bits;
+        valid = holds_first$q | push;
+        data = first$q;
+        if (passes$q) begin
+            data = kept_data;
         end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
+        new_bank$read_address = after_first$q;
+        fetched_bank$read_address = after_first$q;
+        was_fetched$read_address = after_first$q;
+        if (pop | (~holds_first$q)) begin
+            first$d = kept_data;
+            if (holds_more$q) begin
+                first$d = new_bank$read_data;
+                if (was_fetched$read_data == from_ring) begin
+                    first$d = fetched_bank$read_data;
+                end
             end
         end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
+        holds_first$d = valid;
+        if (pop) begin
+            holds_first$d = holds_first$q & (holds_more$q | push);
         end
+        joins = push & holds_first$q;
+        spills = joins & (holds_spilled$q | window_is_full$q);
+        enters = joins & (~spills);
+        fetches = holds_spilled$q & (~window_is_full$q);
+        advances = (~window_is_full$q) & (holds_spilled$q | joins);
+        moves_up = pop & holds_first$q & (holds_more$q | push);
+        ring$write_address = newest$q;
+        ring$write_data = push_data;
+        ring$write_enable = spills;
+        ring$read_address = fetched$q;
+        ring$reset = reset;
+        ring$fetches = fetches;
+        ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
+        new_bank$write_address = place;
+        new_bank$write_data = push_data;
+        new_bank$write_enable = enters;
+        was_fetched$write_address = place;
+        was_fetched$write_data = from_user;
+        if (fetches) begin
+            was_fetched$write_data = from_ring;
+        end
+        was_fetched$write_enable = advances;
+        if (joins) begin
+            newest$d = after_newest;
+        end
+        if (advances) begin
+            fetched$d = after_fetched;
+        end
+        if (moves_up) begin
+            after_first$d = after_moved;
+        end
+        if (fetches) begin
+            holds_spilled$d = after_fetched != newest$q;
+        end
+        if (spills) begin
+            holds_spilled$d = 1'b1;
+        end
+        if (advances & (~moves_up)) begin
+            holds_more$d = 1'b1;
+            window_is_full$d = after_place == after_first$q;
+        end
+        if (moves_up & (~advances)) begin
+            holds_more$d = after_moved != place;
+            window_is_full$d = 1'b0;
+        end
+        if (reset) begin
+            holds_first$d = 1'b0;
+            holds_more$d = 1'b0;
+            window_is_full$d = 1'b0;
+            holds_spilled$d = 1'b0;
+            newest$d = nothing;
+            fetched$d = nothing;
+            after_first$d = first_place;
+        end
+        passes$d = ~holds_first$d;
     end
     
 endmodule // incircle_stream_top_engines$slot0$queue$words
 
 
-module incircle_stream_top_engines$slot0$queue$words$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_stream_top_engines$slot0$queue$words$after_first(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$after_first
+
+
+module incircle_stream_top_engines$slot0$queue$words$fetched(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$fetched
+
+
+module incircle_stream_top_engines$slot0$queue$words$fetched_bank(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -31783,10 +32502,29 @@ module incircle_stream_top_engines$slot0$queue$words$entries(clock,write_address
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_stream_top_engines$slot0$queue$words$entries
+endmodule // incircle_stream_top_engines$slot0$queue$words$fetched_bank
 
 
-module incircle_stream_top_engines$slot0$queue$words$holds_entries(d,q,clock);
+module incircle_stream_top_engines$slot0$queue$words$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$first
+
+
+module incircle_stream_top_engines$slot0$queue$words$holds_first(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -31802,19 +32540,78 @@ module incircle_stream_top_engines$slot0$queue$words$holds_entries(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$queue$words$holds_entries
+endmodule // incircle_stream_top_engines$slot0$queue$words$holds_first
+
+
+module incircle_stream_top_engines$slot0$queue$words$holds_more(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$holds_more
+
+
+module incircle_stream_top_engines$slot0$queue$words$holds_spilled(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$holds_spilled
+
+
+module incircle_stream_top_engines$slot0$queue$words$new_bank(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [31:0] memory [0:15];
+    wire [31:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot0$queue$words$new_bank
 
 
 module incircle_stream_top_engines$slot0$queue$words$newest(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -31824,7 +32621,224 @@ module incircle_stream_top_engines$slot0$queue$words$newest(d,q,clock);
 endmodule // incircle_stream_top_engines$slot0$queue$words$newest
 
 
-module incircle_stream_top_engines$slot0$queue$words$oldest(d,q,clock);
+module incircle_stream_top_engines$slot0$queue$words$passes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$passes
+
+
+module incircle_stream_top_engines$slot0$queue$words$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    input wire  fetches;
+    input wire  [3:0] place;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [31:0] fetched_data;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [7:0] memory$write_address;
+    reg  [31:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [7:0] memory$read_address;
+    wire  [31:0] memory$read_data;
+    reg  in_array$d;
+    wire  in_array$q;
+    reg  in_array$clock;
+    reg  in_output$d;
+    wire  in_output$q;
+    reg  in_output$clock;
+    reg  [3:0] place_in_array$d;
+    wire  [3:0] place_in_array$q;
+    reg  place_in_array$clock;
+    reg  [3:0] place_in_output$d;
+    wire  [3:0] place_in_output$q;
+    reg  place_in_output$clock;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot0$queue$words$ring$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_stream_top_engines$slot0$queue$words$ring$in_array in_array(
+        .d(in_array$d),
+        .q(in_array$q),
+        .clock(in_array$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$ring$in_output in_output(
+        .d(in_output$d),
+        .q(in_output$q),
+        .clock(in_output$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$ring$place_in_array place_in_array(
+        .d(place_in_array$d),
+        .q(place_in_array$q),
+        .clock(place_in_array$clock)
+    );
+    incircle_stream_top_engines$slot0$queue$words$ring$place_in_output place_in_output(
+        .d(place_in_output$d),
+        .q(place_in_output$q),
+        .clock(place_in_output$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        in_array$clock = clock;
+        in_output$clock = clock;
+        place_in_array$clock = clock;
+        place_in_output$clock = clock;
+        in_array$d = in_array$q;
+        in_output$d = in_output$q;
+        place_in_array$d = place_in_array$q;
+        place_in_output$d = place_in_output$q;
+        memory$clock = clock;
+        memory$write_address = write_address;
+        memory$write_data = write_data;
+        memory$write_enable = write_enable;
+        memory$read_address = read_address;
+        in_array$d = fetches;
+        in_output$d = in_array$q;
+        place_in_array$d = place;
+        place_in_output$d = place_in_array$q;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
+        if (reset) begin
+            in_array$d = 1'b0;
+            in_output$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot0$queue$words$ring
+
+
+module incircle_stream_top_engines$slot0$queue$words$ring$in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$ring$in_array
+
+
+module incircle_stream_top_engines$slot0$queue$words$ring$in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$ring$in_output
+
+
+module incircle_stream_top_engines$slot0$queue$words$ring$memory(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    `ifdef INCIRCLE_ECP5
+    wire [13:0] write_pins = {{2{1'b0}}, write_address, 4'b0011};
+    wire [13:0] read_pins = {{2{1'b0}}, read_address, 4'b0011};
+    wire [17:0] nothing = 18'b0;
+    wire [35:0] all_taken = {{4{1'b0}}, write_data};
+    wire [35:0] all_given;
+    wire [31:0] word = all_given[31:0];
+    genvar slice;
+    generate for (slice = 0; slice < 2; slice = slice + 1) begin : slices
+    wire [17:0] taken = all_taken[slice*18 +: 18];
+    wire [17:0] given;
+    assign all_given[slice*18 +: 18] = given[17:0];
+    DP16KD #(
+        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
+        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
+        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
+    ) block_ram (
+    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
+        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
+        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
+        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
+        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
+        .DIA16(taken[16]), .DIA17(taken[17]),
+        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
+        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
+        .DOA16(), .DOA17(),
+    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
+        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
+        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
+        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
+        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
+        .DIB16(nothing[16]), .DIB17(nothing[17]),
+        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
+        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
+        .DOB16(given[16]), .DOB17(given[17])
+    );
+    end endgenerate
+    always @(*) read_data = word;
+    `else
+    (* ram_style = "block", no_rw_check *)
+    reg [31:0] memory [0:255];
+    reg [31:0] word;
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+        word <= memory[read_address];
+        read_data <= word;
+    end
+    `endif
+endmodule // incircle_stream_top_engines$slot0$queue$words$ring$memory
+
+
+module incircle_stream_top_engines$slot0$queue$words$ring$place_in_array(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -31840,7 +32854,66 @@ module incircle_stream_top_engines$slot0$queue$words$oldest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot0$queue$words$oldest
+endmodule // incircle_stream_top_engines$slot0$queue$words$ring$place_in_array
+
+
+module incircle_stream_top_engines$slot0$queue$words$ring$place_in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$ring$place_in_output
+
+
+module incircle_stream_top_engines$slot0$queue$words$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot0$queue$words$was_fetched
+
+
+module incircle_stream_top_engines$slot0$queue$words$window_is_full(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot0$queue$words$window_is_full
 
 
 module incircle_stream_top_engines$slot1(clock,reset,push,routed,has_room,is_free,offers,beat,takes,write);
@@ -31877,14 +32950,14 @@ module incircle_stream_top_engines$slot1(clock,reset,push,routed,has_room,is_fre
     wire  queue$command$valid;
     reg  queue$command$ready;
     wire  [31:0] queue$command$data;
-    reg  [4:0] owed$d;
-    wire  [4:0] owed$q;
+    reg  [8:0] owed$d;
+    wire  [8:0] owed$q;
     reg  owed$clock;
     
     // Local signals
     reg  begins;
     reg  ends;
-    reg  [4:0] one;
+    reg  [8:0] one;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core core(
@@ -31991,19 +33064,19 @@ module incircle_stream_top_engines$slot1$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -32023,8 +33096,8 @@ module incircle_stream_top_engines$slot1$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -32267,61 +33340,40 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
-    reg  [32:0] range_end$d;
-    wire  [32:0] range_end$q;
-    reg  range_end$clock;
-    reg  [14:0] range_bound$d;
-    wire  [14:0] range_bound$q;
-    reg  range_bound$clock;
-    reg  [31:0] triple$d;
-    wire  [31:0] triple$q;
-    reg  triple$clock;
-    reg  counts_none$d;
-    wire  counts_none$q;
-    reg  counts_none$clock;
+    reg  range$clock;
+    reg  [73:0] range$request;
+    reg  [14:0] range$records;
+    wire  range$is_outside;
+    wire  range$has_none;
+    wire  [16:0] range$whole_length;
+    wire  [16:0] range$packed_length;
     reg  [2:0] insert_status$d;
     wire  [2:0] insert_status$q;
     reg  insert_status$clock;
-    reg  is_outside$d;
-    wire  is_outside$q;
-    reg  is_outside$clock;
-    reg  [31:0] read_length$d;
-    wire  [31:0] read_length$q;
-    reg  read_length$clock;
-    reg  [31:0] packed_length$d;
-    wire  [31:0] packed_length$q;
-    reg  packed_length$clock;
-    reg  reads_none$d;
-    wire  reads_none$q;
-    reg  reads_none$clock;
     reg  [2:0] report_status$d;
     wire  [2:0] report_status$q;
     reg  report_status$clock;
     reg  [2:0] answer_status$d;
     wire  [2:0] answer_status$q;
     reg  answer_status$clock;
-    reg  [31:0] answer_length$d;
-    wire  [31:0] answer_length$q;
+    reg  [16:0] answer_length$d;
+    wire  [16:0] answer_length$q;
     reg  answer_length$clock;
     reg  has_none$d;
     wire  has_none$q;
     reg  has_none$clock;
     
     // Local signals
-    reg  [32:0] wide_first;
-    reg  [32:0] wide_count;
-    reg  [32:0] wide_bound;
-    reg  [31:0] double_count;
     reg  [31:0] status;
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
@@ -32329,61 +33381,27 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
     reg  [31:0] wide_engine;
     reg  [31:0] shifted_engine;
     reg  [31:0] job;
-    reg  [31:0] none;
-    reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
     
     // Sub module instances
-    incircle_stream_top_engines$slot1$core$answer_head$range_end range_end(
-        .d(range_end$d),
-        .q(range_end$q),
-        .clock(range_end$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$range_bound range_bound(
-        .d(range_bound$d),
-        .q(range_bound$q),
-        .clock(range_bound$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$triple triple(
-        .d(triple$d),
-        .q(triple$q),
-        .clock(triple$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$counts_none counts_none(
-        .d(counts_none$d),
-        .q(counts_none$q),
-        .clock(counts_none$clock)
+    incircle_stream_top_engines$slot1$core$answer_head$range range(
+        .clock(range$clock),
+        .request(range$request),
+        .records(range$records),
+        .is_outside(range$is_outside),
+        .has_none(range$has_none),
+        .whole_length(range$whole_length),
+        .packed_length(range$packed_length)
     );
     incircle_stream_top_engines$slot1$core$answer_head$insert_status insert_status(
         .d(insert_status$d),
         .q(insert_status$q),
         .clock(insert_status$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$is_outside is_outside(
-        .d(is_outside$d),
-        .q(is_outside$q),
-        .clock(is_outside$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$read_length read_length(
-        .d(read_length$d),
-        .q(read_length$q),
-        .clock(read_length$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$packed_length packed_length(
-        .d(packed_length$d),
-        .q(packed_length$q),
-        .clock(packed_length$clock)
-    );
-    incircle_stream_top_engines$slot1$core$answer_head$reads_none reads_none(
-        .d(reads_none$d),
-        .q(reads_none$q),
-        .clock(reads_none$clock)
     );
     incircle_stream_top_engines$slot1$core$answer_head$report_status report_status(
         .d(report_status$d),
@@ -32408,46 +33426,24 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
     
     // Update code
     always @(*) begin
-        range_end$clock = clock;
-        range_bound$clock = clock;
-        triple$clock = clock;
-        counts_none$clock = clock;
         insert_status$clock = clock;
-        range_end$d = range_end$q;
-        range_bound$d = range_bound$q;
-        triple$d = triple$q;
-        counts_none$d = counts_none$q;
-        insert_status$d = insert_status$q;
-        is_outside$clock = clock;
-        read_length$clock = clock;
-        packed_length$clock = clock;
-        reads_none$clock = clock;
         report_status$clock = clock;
-        is_outside$d = is_outside$q;
-        read_length$d = read_length$q;
-        packed_length$d = packed_length$q;
-        reads_none$d = reads_none$q;
-        report_status$d = report_status$q;
         answer_status$clock = clock;
         answer_length$clock = clock;
         has_none$clock = clock;
+        insert_status$d = insert_status$q;
+        report_status$d = report_status$q;
         answer_status$d = answer_status$q;
         answer_length$d = answer_length$q;
         has_none$d = has_none$q;
-        none = 32'h0;
-        one = 32'h1;
+        range$clock = clock;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
-        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
-        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        range_end$d = wide_first + wide_count;
-        range_bound$d = records;
-        double_count = request[(64'h28)+:(32)] << one;
-        triple$d = double_count + request[(64'h28)+:(32)];
-        counts_none$d = request[(64'h28)+:(32)] == none;
+        range$request = request;
+        range$records = records;
         insert_status$d = 32'h0;
         if (some_refused) begin
             insert_status$d = 32'h4;
@@ -32458,12 +33454,6 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         if (stuck) begin
             insert_status$d = 32'h6;
         end
-        wide_bound = ((range_bound$q) & 33'h1ffffffff);
-        is_outside$d = range_end$q > wide_bound;
-        read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
-        reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
         answer_length$d = 32'h0;
@@ -32487,9 +33477,9 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
                 end
             4:
                 begin
-                    answer_length$d = read_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$whole_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -32505,9 +33495,9 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
                 end
             7:
                 begin
-                    answer_length$d = packed_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$packed_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -32521,8 +33511,10 @@ module incircle_stream_top_engines$slot1$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
-        head[(64'h20)+:(32)] = answer_length$q;
+        head[(64'h20)+:(32)] = ((answer_length$q) & 32'hffffffff);
         head[(64'h40)+:(1)] = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
         shifted_status = status << status_shift;
@@ -32540,13 +33532,13 @@ endmodule // incircle_stream_top_engines$slot1$core$answer_head
 module incircle_stream_top_engines$slot1$core$answer_head$answer_length(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [16:0] d;
+    output reg  [16:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 17'h0;
     end
     
     always @(posedge clock) begin
@@ -32573,25 +33565,6 @@ module incircle_stream_top_engines$slot1$core$answer_head$answer_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$answer_head$answer_status
-
-
-module incircle_stream_top_engines$slot1$core$answer_head$counts_none(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$counts_none
 
 
 module incircle_stream_top_engines$slot1$core$answer_head$has_none(d,q,clock);
@@ -32632,45 +33605,174 @@ module incircle_stream_top_engines$slot1$core$answer_head$insert_status(d,q,cloc
 endmodule // incircle_stream_top_engines$slot1$core$answer_head$insert_status
 
 
-module incircle_stream_top_engines$slot1$core$answer_head$is_outside(d,q,clock);
+module incircle_stream_top_engines$slot1$core$answer_head$range(clock,request,records,is_outside,has_none,whole_length,packed_length);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
     input wire  clock;
+    input wire  [73:0] request;
+    input wire  [14:0] records;
+    output reg  is_outside;
+    output reg  has_none;
+    output reg  [16:0] whole_length;
+    output reg  [16:0] packed_length;
     
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
+    // Stub signals
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
+    reg  [14:0] bound$d;
+    wire  [14:0] bound$q;
+    reg  bound$clock;
+    reg  counts_none$d;
+    wire  counts_none$q;
+    reg  counts_none$clock;
+    reg  [16:0] triple$d;
+    wire  [16:0] triple$q;
+    reg  triple$clock;
+    reg  [16:0] number$d;
+    wire  [16:0] number$q;
+    reg  number$clock;
+    reg  [16:0] enlarged$d;
+    wire  [16:0] enlarged$q;
+    reg  enlarged$clock;
+    reg  outside$d;
+    wire  outside$q;
+    reg  outside$clock;
+    reg  reads_none$d;
+    wire  reads_none$q;
+    reg  reads_none$clock;
+    reg  [16:0] whole$d;
+    wire  [16:0] whole$q;
+    reg  whole$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
+    
+    // Local signals
+    reg  [32:0] wide_first;
+    reg  [32:0] wide_count;
+    reg  [32:0] wide_bound;
+    reg  [31:0] none;
+    reg  [14:0] few;
+    reg  [16:0] count;
+    reg  [16:0] more;
+    reg  [16:0] added;
+    reg  [16:0] one;
+    reg  [16:0] three;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot1$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$bound bound(
+        .d(bound$d),
+        .q(bound$q),
+        .clock(bound$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$counts_none counts_none(
+        .d(counts_none$d),
+        .q(counts_none$q),
+        .clock(counts_none$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$enlarged enlarged(
+        .d(enlarged$d),
+        .q(enlarged$q),
+        .clock(enlarged$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$outside outside(
+        .d(outside$d),
+        .q(outside$q),
+        .clock(outside$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$reads_none reads_none(
+        .d(reads_none$d),
+        .q(reads_none$q),
+        .clock(reads_none$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$whole whole(
+        .d(whole$d),
+        .q(whole$q),
+        .clock(whole$clock)
+    );
+    incircle_stream_top_engines$slot1$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        range_end$clock = clock;
+        bound$clock = clock;
+        counts_none$clock = clock;
+        triple$clock = clock;
+        number$clock = clock;
+        enlarged$clock = clock;
+        range_end$d = range_end$q;
+        bound$d = bound$q;
+        counts_none$d = counts_none$q;
+        triple$d = triple$q;
+        number$d = number$q;
+        enlarged$d = enlarged$q;
+        outside$clock = clock;
+        reads_none$clock = clock;
+        whole$clock = clock;
+        vertices$clock = clock;
+        outside$d = outside$q;
+        reads_none$d = reads_none$q;
+        whole$d = whole$q;
+        vertices$d = vertices$q;
+        none = 32'h0;
+        one = 32'h1;
+        three = 32'h3;
+        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
+        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
+        range_end$d = wide_first + wide_count;
+        bound$d = records;
+        counts_none$d = request[(64'h28)+:(32)] == none;
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        count = ((few) & 17'h1ffff);
+        triple$d = count + (count << one);
+        number$d = count;
+        added = 32'h1;
+        if (request[(64'h48)+:(1)]) begin
+            added = 32'h7;
+        end
+        enlarged$d = count + added;
+        wide_bound = ((bound$q) & 33'h1ffffffff);
+        outside$d = range_end$q > wide_bound;
+        reads_none$d = counts_none$q;
+        whole$d = triple$q;
+        more = enlarged$q >> one;
+        if (request[(64'h48)+:(1)]) begin
+            more = enlarged$q >> three;
+            if (~request[(64'h49)+:(1)]) begin
+                more = 32'h0;
+            end
+        end
+        vertices$d = number$q + more;
+        is_outside = outside$q;
+        has_none = reads_none$q;
+        whole_length = whole$q;
+        packed_length = vertices$q;
     end
     
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$is_outside
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range
 
 
-module incircle_stream_top_engines$slot1$core$answer_head$packed_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$packed_length
-
-
-module incircle_stream_top_engines$slot1$core$answer_head$range_bound(d,q,clock);
+module incircle_stream_top_engines$slot1$core$answer_head$range$bound(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -32686,48 +33788,10 @@ module incircle_stream_top_engines$slot1$core$answer_head$range_bound(d,q,clock)
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$range_bound
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$bound
 
 
-module incircle_stream_top_engines$slot1$core$answer_head$range_end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$range_end
-
-
-module incircle_stream_top_engines$slot1$core$answer_head$read_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$read_length
-
-
-module incircle_stream_top_engines$slot1$core$answer_head$reads_none(d,q,clock);
+module incircle_stream_top_engines$slot1$core$answer_head$range$counts_none(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -32743,7 +33807,159 @@ module incircle_stream_top_engines$slot1$core$answer_head$reads_none(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$reads_none
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$counts_none
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$enlarged(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$enlarged
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$number
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$outside(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$outside
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$range_end(d,q,clock);
+    
+    // Module arguments
+    input wire  [32:0] d;
+    output reg  [32:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 33'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$range_end
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$reads_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$reads_none
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$triple
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$vertices
+
+
+module incircle_stream_top_engines$slot1$core$answer_head$range$whole(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$answer_head$range$whole
 
 
 module incircle_stream_top_engines$slot1$core$answer_head$report_status(d,q,clock);
@@ -32763,25 +33979,6 @@ module incircle_stream_top_engines$slot1$core$answer_head$report_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$answer_head$report_status
-
-
-module incircle_stream_top_engines$slot1$core$answer_head$triple(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$answer_head$triple
 
 
 module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
@@ -32820,6 +34017,7 @@ module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core$answer_words$identity identity(
@@ -32849,6 +34047,7 @@ module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -32885,7 +34084,7 @@ module incircle_stream_top_engines$slot1$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -32987,7 +34186,7 @@ module incircle_stream_top_engines$slot1$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -33004,8 +34203,8 @@ module incircle_stream_top_engines$slot1$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -33151,6 +34350,8 @@ module incircle_stream_top_engines$slot1$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -33724,13 +34925,13 @@ endmodule // incircle_stream_top_engines$slot1$core$command_port$gate
 module incircle_stream_top_engines$slot1$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -56044,8 +57245,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -56100,6 +57301,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -56158,6 +57361,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -56202,6 +57407,8 @@ module incircle_stream_top_engines$slot1$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -56302,7 +57509,7 @@ module incircle_stream_top_engines$slot1$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot1$core$responder$offered
 
 
-module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -56311,6 +57518,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -56324,6 +57533,12 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -56344,6 +57559,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -56367,6 +57584,16 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot1$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -56399,6 +57626,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -56420,6 +57649,11 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -56427,7 +57661,6 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -56438,6 +57671,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = is_packed & has_short_ids;
+        rests_follow$d = is_packed & has_short_ids & has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -56458,6 +57693,8 @@ module incircle_stream_top_engines$slot1$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -56494,6 +57731,25 @@ module incircle_stream_top_engines$slot1$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$is_second(d,q,clock);
@@ -56591,6 +57847,25 @@ module incircle_stream_top_engines$slot1$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot1$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot1$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -56610,7 +57885,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -56618,6 +57893,8 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -56638,14 +57915,19 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
+    wire  [3:0] halves$rest;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
+    reg  [3:0] packer$rest;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -56683,7 +57965,9 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
-        .halves(halves$halves)
+        .has_short_ids(halves$has_short_ids),
+        .halves(halves$halves),
+        .rest(halves$rest)
     );
     incircle_stream_top_engines$slot1$core$responder$records$stream$packer packer(
         .clock(packer$clock),
@@ -56691,8 +57975,11 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
+        .rest(packer$rest),
         .valid(packer$valid),
         .beat(packer$beat)
     );
@@ -56729,9 +58016,13 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
+        packer$rest = halves$rest;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -56757,13 +58048,15 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves,rest);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
+    output reg  [3:0] rest;
     
     // Stub signals
     reg  [90:0] kept$d;
@@ -56784,6 +58077,13 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [3:0] two_bits;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core$responder$records$stream$halves$kept kept(
@@ -56798,6 +58098,13 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two_bits = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -56823,7 +58130,12 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+            end
         end
+        rest = ((vertex1[(32'ha)+:(2)]) & 4'hf) | (((vertex2[(32'ha)+:(2)]) & 4'hf) << two_bits);
     end
     
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$halves
@@ -56878,7 +58190,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,rest,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -56886,17 +58198,20 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
+    input wire  [3:0] rest;
     output reg  valid;
     output reg  [65:0] beat;
     
     // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -56905,31 +58220,38 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [2:0] number$d;
-    wire  [2:0] number$q;
-    reg  number$clock;
     reg  [63:0] kept$d;
     wire  [63:0] kept$q;
     reg  kept$clock;
-    reg  many_are_kept$d;
-    wire  many_are_kept$q;
-    reg  many_are_kept$clock;
-    reg  [14:0] left$d;
-    wire  [14:0] left$q;
-    reg  left$clock;
-    reg  is_last$d;
-    wire  is_last$q;
-    reg  is_last$clock;
-    reg  all_came$d;
-    wire  all_came$q;
-    reg  all_came$clock;
+    reg  number$clock;
+    reg  number$reset;
+    reg  number$vertices_alone;
+    reg  number$has_short_ids;
+    reg  number$comes;
+    reg  number$is_last;
+    reg  number$brings_rests;
+    reg  number$all_came;
+    wire  [2:0] number$number;
+    wire  number$fills;
+    wire  number$moves;
+    wire  number$both;
+    wire  number$last;
+    reg  group$clock;
+    reg  group$starts;
+    reg  [14:0] group$count;
+    reg  group$comes;
+    reg  [3:0] group$rest;
+    wire  group$is_last;
+    wire  group$ends_group;
+    wire  group$all_came;
+    wire  [31:0] group$rests;
     
     // Local signals
-    reg  takes;
+    reg  brings_rests;
+    reg  [15:0] third;
+    reg  [15:0] fourth;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
-    reg  [14:0] one;
-    reg  [14:0] two;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is_there is_there(
@@ -56942,170 +58264,133 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer(cl
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number number(
-        .d(number$d),
-        .q(number$q),
-        .clock(number$clock)
-    );
     incircle_stream_top_engines$slot1$core$responder$records$stream$packer$kept kept(
         .d(kept$d),
         .q(kept$q),
         .clock(kept$clock)
     );
-    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$many_are_kept many_are_kept(
-        .d(many_are_kept$d),
-        .q(many_are_kept$q),
-        .clock(many_are_kept$clock)
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number number(
+        .clock(number$clock),
+        .reset(number$reset),
+        .vertices_alone(number$vertices_alone),
+        .has_short_ids(number$has_short_ids),
+        .comes(number$comes),
+        .is_last(number$is_last),
+        .brings_rests(number$brings_rests),
+        .all_came(number$all_came),
+        .number(number$number),
+        .fills(number$fills),
+        .moves(number$moves),
+        .both(number$both),
+        .last(number$last)
     );
-    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
-    );
-    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is_last is_last(
-        .d(is_last$d),
-        .q(is_last$q),
-        .clock(is_last$clock)
-    );
-    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$all_came all_came(
-        .d(all_came$d),
-        .q(all_came$q),
-        .clock(all_came$clock)
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group group(
+        .clock(group$clock),
+        .starts(group$starts),
+        .count(group$count),
+        .comes(group$comes),
+        .rest(group$rest),
+        .is_last(group$is_last),
+        .ends_group(group$ends_group),
+        .all_came(group$all_came),
+        .rests(group$rests)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        number$clock = clock;
         kept$clock = clock;
-        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        number$d = number$q;
         kept$d = kept$q;
-        many_are_kept$d = many_are_kept$q;
-        left$clock = clock;
-        is_last$clock = clock;
-        all_came$clock = clock;
-        left$d = left$q;
-        is_last$d = is_last$q;
-        all_came$d = all_came$q;
-        one = 32'h1;
-        two = 32'h2;
+        number$clock = clock;
+        group$clock = clock;
         valid = is_there$q;
         beat = filled$q;
+        group$starts = starts;
+        group$count = count;
+        group$comes = comes;
+        group$rest = rest;
+        brings_rests = has_rests & group$ends_group;
+        number$reset = reset;
+        number$vertices_alone = vertices_alone;
+        number$has_short_ids = has_short_ids;
+        number$comes = comes;
+        number$is_last = group$is_last;
+        number$brings_rests = brings_rests;
+        number$all_came = group$all_came;
+        is_there$d = number$fills;
+        filled$d[(64'h40)+:(1)] = number$both;
+        filled$d[(64'h41)+:(1)] = number$last;
+        third = halves[(64'h20)+:(16)];
+        fourth = halves[(64'h30)+:(16)];
+        if (has_short_ids) begin
+            third = group$rests[(32'h0)+:(16)];
+            fourth = group$rests[(32'h10)+:(16)];
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
         kept$d[(64'h30)+:(16)] = 32'h0;
-        many_are_kept$d = 1'b0;
-        takes = comes;
-        is_there$d = comes;
-        filled$d[(64'h40)+:(1)] = 1'b1;
-        filled$d[(64'h41)+:(1)] = 1'b0;
-        case (number$q)
-            KeptHalves$Zero:
+        case (number$number)
+            KeptNumber$Zero:
                 begin
                     sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    sent[(64'h20)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = fourth;
                     kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
-                    number$d = KeptHalves$Two;
                     if (vertices_alone) begin
-                        is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Three;
+                        if (~has_short_ids) begin
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        end
                     end
                 end
-            KeptHalves$One:
+            KeptNumber$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
-                    filled$d[(64'h41)+:(1)] = is_last$q;
-                    number$d = KeptHalves$Zero;
                 end
-            KeptHalves$Two:
+            KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$One;
+                    kept$d[(64'h0)+:(16)] = third;
+                    if (has_short_ids | (~vertices_alone)) begin
+                        kept$d[(64'h10)+:(16)] = fourth;
+                    end
                     if (~vertices_alone) begin
-                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
                         kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Rest;
                     end
                 end
-            KeptHalves$Three:
+            KeptNumber$Three:
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
-                    takes = 1'b1;
-                    is_there$d = 1'b1;
-                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
-                    filled$d[(64'h41)+:(1)] = all_came$q;
-                    number$d = KeptHalves$Zero;
                 end
         endcase
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
-        if (comes) begin
-            left$d = left$q - one;
-            is_last$d = left$q == two;
-            all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
-                number$d = KeptHalves$Rest;
-            end
-        end
-        if (~takes) begin
-            number$d = number$q;
+        if (~number$moves) begin
             kept$d = kept$q;
-        end
-        if (starts) begin
-            left$d = count;
-            is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            number$d = KeptHalves$Zero;
         end
     end
     
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer
-
-
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$all_came(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$all_came
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$filled(d,q,clock);
@@ -57127,7 +58412,157 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$fi
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$filled
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is_last(d,q,clock);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group(clock,starts,count,comes,rest,is_last,ends_group,all_came,rests);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [3:0] rest;
+    output reg  is_last;
+    output reg  ends_group;
+    output reg  all_came;
+    output reg  [31:0] rests;
+    
+    // Stub signals
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  none_is_left$d;
+    wire  none_is_left$q;
+    reg  none_is_left$clock;
+    reg  [2:0] place$d;
+    wire  [2:0] place$q;
+    reg  place$clock;
+    reg  [31:0] earlier$d;
+    wire  [31:0] earlier$q;
+    reg  earlier$clock;
+    
+    // Local signals
+    reg  [31:0] together;
+    reg  ends;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [2:0] one_place;
+    reg  [2:0] last_place;
+    reg  [31:0] rest_bits;
+    reg  [31:0] rest_shift;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$none_is_left none_is_left(
+        .d(none_is_left$d),
+        .q(none_is_left$q),
+        .clock(none_is_left$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$earlier earlier(
+        .d(earlier$d),
+        .q(earlier$q),
+        .clock(earlier$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        left$clock = clock;
+        one_is_left$clock = clock;
+        none_is_left$clock = clock;
+        place$clock = clock;
+        earlier$clock = clock;
+        left$d = left$q;
+        one_is_left$d = one_is_left$q;
+        none_is_left$d = none_is_left$q;
+        place$d = place$q;
+        earlier$d = earlier$q;
+        one = 32'h1;
+        two = 32'h2;
+        one_place = 32'h1;
+        last_place = 32'h7;
+        rest_bits = 32'h4;
+        rest_shift = 32'h1c;
+        is_last = one_is_left$q;
+        all_came = none_is_left$q;
+        ends = one_is_left$q | (place$q == last_place);
+        ends_group = ends;
+        together = (earlier$q >> rest_bits) | (((rest) & 32'hffffffff) << rest_shift);
+        rests = together;
+        if (comes) begin
+            left$d = left$q - one;
+            one_is_left$d = left$q == two;
+            none_is_left$d = one_is_left$q;
+            place$d = place$q + one_place;
+            earlier$d = together;
+            if (ends) begin
+                earlier$d = 32'h0;
+            end
+        end
+        if (starts) begin
+            left$d = count;
+            one_is_left$d = count == one;
+            place$d = 32'h0;
+            earlier$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$earlier(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$earlier
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$left
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$none_is_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -57143,7 +58578,45 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is_last
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$none_is_left
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$one_is_left
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$group$place
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$is_there(d,q,clock);
@@ -57184,26 +58657,149 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$ke
 endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$kept
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$left(d,q,clock);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number(clock,reset,vertices_alone,has_short_ids,comes,is_last,brings_rests,all_came,number,fills,moves,both,last);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
     input wire  clock;
+    input wire  reset;
+    input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  comes;
+    input wire  is_last;
+    input wire  brings_rests;
+    input wire  all_came;
+    output reg  [2:0] number;
+    output reg  fills;
+    output reg  moves;
+    output reg  both;
+    output reg  last;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
+    
+    // Stub signals
+    reg  [2:0] kept$d;
+    wire  [2:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
+    
+    // Local signals
+    reg  [2:0] leaves;
+    reg  leaves_none;
+    reg  is_rest;
+    reg  takes;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        many_are_kept$clock = clock;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        number = kept$q;
+        is_rest = kept$q == KeptNumber$Rest;
+        takes = comes | is_rest;
+        moves = takes;
+        fills = takes;
+        leaves = KeptNumber$Zero;
+        case (kept$q)
+            KeptNumber$Zero:
+                begin
+                    if (~brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (vertices_alone) begin
+                        fills = comes & brings_rests;
+                        if (~has_short_ids) begin
+                            leaves = KeptNumber$Three;
+                        end
+                    end
+                end
+            KeptNumber$Two:
+                begin
+                    if (~has_short_ids) begin
+                        leaves = KeptNumber$One;
+                    end
+                    if (brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (~vertices_alone) begin
+                        leaves = KeptNumber$Rest;
+                    end
+                end
+            KeptNumber$Three:
+                begin
+                    leaves = KeptNumber$Two;
+                end
+            default:
+                begin
+                end
+        endcase
+        leaves_none = leaves == KeptNumber$Zero;
+        both = many_are_kept$q | (~is_rest);
+        last = is_last & leaves_none;
+        if (is_rest) begin
+            last = all_came;
+        end
+        if (takes) begin
+            many_are_kept$d = (leaves == KeptNumber$Three) | (leaves == KeptNumber$Rest);
+            kept$d = leaves;
+            if (is_last & (~leaves_none)) begin
+                kept$d = KeptNumber$Rest;
+            end
+        end
+        if (reset) begin
+            kept$d = KeptNumber$Zero;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$left
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number$kept
 
 
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$many_are_kept(d,q,clock);
+module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number$many_are_kept(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -57219,33 +58815,7 @@ module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$ma
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$many_are_kept
-
-
-module incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number
+endmodule // incircle_stream_top_engines$slot1$core$responder$records$stream$packer$number$many_are_kept
 
 
 module incircle_stream_top_engines$slot1$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -57579,8 +59149,8 @@ module incircle_stream_top_engines$slot1$core$responder$words(clock,reset,prepar
     reg  [6:0] following$d;
     wire  [6:0] following$q;
     reg  following$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
+    reg  [7:0] left$d;
+    wire  [7:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
@@ -57595,8 +59165,9 @@ module incircle_stream_top_engines$slot1$core$responder$words(clock,reset,prepar
     // Local signals
     reg  is_choosing;
     reg  [31:0] no_word;
-    reg  [31:0] one;
-    reg  [31:0] two;
+    reg  [7:0] words;
+    reg  [7:0] one;
+    reg  [7:0] two;
     reg  [6:0] one_word;
     
     // Sub module instances
@@ -57649,6 +59220,7 @@ module incircle_stream_top_engines$slot1$core$responder$words(clock,reset,prepar
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
+        words = length[(32'h0)+:(8)];
         index = loaded$q;
         index_ahead = following$q;
         valid = is_chosen$q;
@@ -57674,8 +59246,8 @@ module incircle_stream_top_engines$slot1$core$responder$words(clock,reset,prepar
         end
         if (starts) begin
             loaded$d = 32'h0;
-            left$d = length;
-            is_last$d = length == one;
+            left$d = words;
+            is_last$d = words == one;
         end
         if (reset) begin
             waited$d = 1'b0;
@@ -57746,13 +59318,13 @@ endmodule // incircle_stream_top_engines$slot1$core$responder$words$is_last
 module incircle_stream_top_engines$slot1$core$responder$words$left(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -57803,13 +59375,13 @@ endmodule // incircle_stream_top_engines$slot1$core$responder$words$waited
 module incircle_stream_top_engines$slot1$owed(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -57832,8 +59404,8 @@ module incircle_stream_top_engines$slot1$queue(clock,reset,push,word,has_room,co
     output reg  [31:0] command$data;
     
     // Stub signals
-    reg  [4:0] waiting$d;
-    wire  [4:0] waiting$q;
+    reg  [8:0] waiting$d;
+    wire  [8:0] waiting$q;
     reg  waiting$clock;
     reg  came$d;
     wire  came$q;
@@ -57851,8 +59423,8 @@ module incircle_stream_top_engines$slot1$queue(clock,reset,push,word,has_room,co
     
     // Local signals
     reg  takes;
-    reg  [4:0] one;
-    reg  [4:0] all;
+    reg  [8:0] one;
+    reg  [8:0] all;
     
     // Sub module instances
     incircle_stream_top_engines$slot1$queue$waiting waiting(
@@ -57890,7 +59462,7 @@ module incircle_stream_top_engines$slot1$queue(clock,reset,push,word,has_room,co
         newest$d = newest$q;
         words$clock = clock;
         one = 32'h1;
-        all = 32'h10;
+        all = 32'h100;
         has_room = waiting$q != all;
         came$d = push;
         newest$d = word;
@@ -57957,13 +59529,13 @@ endmodule // incircle_stream_top_engines$slot1$queue$newest
 module incircle_stream_top_engines$slot1$queue$waiting(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -57985,103 +59557,323 @@ module incircle_stream_top_engines$slot1$queue$words(clock,reset,push,push_data,
     output reg  [31:0] data;
     
     // Constant declarations
-    localparam  one = 4'h1;
-    localparam  nothing = 4'h0;
+    localparam  one = 8'h1;
+    localparam  one_place = 4'h1;
+    localparam  nothing = 8'h0;
+    localparam  first_place = 4'h0;
+    localparam  from_user = 1'b0;
+    localparam  from_ring = 1'b1;
     localparam  kept_bits = 32'hffffffff;
     
     // Stub signals
-    reg  entries$clock;
-    reg  [3:0] entries$write_address;
-    reg  [31:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [3:0] entries$read_address;
-    wire  [31:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [3:0] newest$d;
-    wire  [3:0] newest$q;
+    reg  ring$clock;
+    reg  ring$reset;
+    reg  [7:0] ring$write_address;
+    reg  [31:0] ring$write_data;
+    reg  ring$write_enable;
+    reg  [7:0] ring$read_address;
+    reg  ring$fetches;
+    reg  [3:0] ring$place;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [31:0] ring$fetched_data;
+    reg  new_bank$clock;
+    reg  [3:0] new_bank$write_address;
+    reg  [31:0] new_bank$write_data;
+    reg  new_bank$write_enable;
+    reg  [3:0] new_bank$read_address;
+    wire  [31:0] new_bank$read_data;
+    reg  fetched_bank$clock;
+    reg  [3:0] fetched_bank$write_address;
+    reg  [31:0] fetched_bank$write_data;
+    reg  fetched_bank$write_enable;
+    reg  [3:0] fetched_bank$read_address;
+    wire  [31:0] fetched_bank$read_data;
+    reg  was_fetched$clock;
+    reg  [3:0] was_fetched$write_address;
+    reg  was_fetched$write_data;
+    reg  was_fetched$write_enable;
+    reg  [3:0] was_fetched$read_address;
+    wire  was_fetched$read_data;
+    reg  holds_first$d;
+    wire  holds_first$q;
+    reg  holds_first$clock;
+    reg  passes$d;
+    wire  passes$q;
+    reg  passes$clock;
+    reg  [31:0] first$d;
+    wire  [31:0] first$q;
+    reg  first$clock;
+    reg  holds_more$d;
+    wire  holds_more$q;
+    reg  holds_more$clock;
+    reg  window_is_full$d;
+    wire  window_is_full$q;
+    reg  window_is_full$clock;
+    reg  holds_spilled$d;
+    wire  holds_spilled$q;
+    reg  holds_spilled$clock;
+    reg  [7:0] newest$d;
+    wire  [7:0] newest$q;
     reg  newest$clock;
-    reg  [3:0] oldest$d;
-    wire  [3:0] oldest$q;
-    reg  oldest$clock;
+    reg  [7:0] fetched$d;
+    wire  [7:0] fetched$q;
+    reg  fetched$clock;
+    reg  [3:0] after_first$d;
+    wire  [3:0] after_first$q;
+    reg  after_first$clock;
     
     // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [3:0] after_newest;
-    reg  [3:0] after_oldest;
+    reg  [31:0] kept_data;
+    reg  joins;
+    reg  moves_up;
+    reg  spills;
+    reg  enters;
+    reg  fetches;
+    reg  advances;
+    reg  [7:0] after_newest;
+    reg  [7:0] after_fetched;
+    reg  [3:0] after_moved;
+    reg  [3:0] place;
+    reg  [3:0] after_place;
     
     // Sub module instances
-    incircle_stream_top_engines$slot1$queue$words$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
+    incircle_stream_top_engines$slot1$queue$words$ring ring(
+        .clock(ring$clock),
+        .reset(ring$reset),
+        .write_address(ring$write_address),
+        .write_data(ring$write_data),
+        .write_enable(ring$write_enable),
+        .read_address(ring$read_address),
+        .fetches(ring$fetches),
+        .place(ring$place),
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
-    incircle_stream_top_engines$slot1$queue$words$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
+    incircle_stream_top_engines$slot1$queue$words$new_bank new_bank(
+        .clock(new_bank$clock),
+        .write_address(new_bank$write_address),
+        .write_data(new_bank$write_data),
+        .write_enable(new_bank$write_enable),
+        .read_address(new_bank$read_address),
+        .read_data(new_bank$read_data)
+    );
+    incircle_stream_top_engines$slot1$queue$words$fetched_bank fetched_bank(
+        .clock(fetched_bank$clock),
+        .write_address(fetched_bank$write_address),
+        .write_data(fetched_bank$write_data),
+        .write_enable(fetched_bank$write_enable),
+        .read_address(fetched_bank$read_address),
+        .read_data(fetched_bank$read_data)
+    );
+    incircle_stream_top_engines$slot1$queue$words$was_fetched was_fetched(
+        .clock(was_fetched$clock),
+        .write_address(was_fetched$write_address),
+        .write_data(was_fetched$write_data),
+        .write_enable(was_fetched$write_enable),
+        .read_address(was_fetched$read_address),
+        .read_data(was_fetched$read_data)
+    );
+    incircle_stream_top_engines$slot1$queue$words$holds_first holds_first(
+        .d(holds_first$d),
+        .q(holds_first$q),
+        .clock(holds_first$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$passes passes(
+        .d(passes$d),
+        .q(passes$q),
+        .clock(passes$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$holds_more holds_more(
+        .d(holds_more$d),
+        .q(holds_more$q),
+        .clock(holds_more$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$window_is_full window_is_full(
+        .d(window_is_full$d),
+        .q(window_is_full$q),
+        .clock(window_is_full$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$holds_spilled holds_spilled(
+        .d(holds_spilled$d),
+        .q(holds_spilled$q),
+        .clock(holds_spilled$clock)
     );
     incircle_stream_top_engines$slot1$queue$words$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_stream_top_engines$slot1$queue$words$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
+    incircle_stream_top_engines$slot1$queue$words$fetched fetched(
+        .d(fetched$d),
+        .q(fetched$q),
+        .clock(fetched$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$after_first after_first(
+        .d(after_first$d),
+        .q(after_first$q),
+        .clock(after_first$clock)
     );
     
     // Update code
     always @(*) begin
-        holds_entries$clock = clock;
+        holds_first$clock = clock;
+        passes$clock = clock;
+        first$clock = clock;
+        holds_more$clock = clock;
+        window_is_full$clock = clock;
+        holds_spilled$clock = clock;
+        holds_first$d = holds_first$q;
+        passes$d = passes$q;
+        first$d = first$q;
+        holds_more$d = holds_more$q;
+        window_is_full$d = window_is_full$q;
+        holds_spilled$d = holds_spilled$q;
         newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
+        fetched$clock = clock;
+        after_first$clock = clock;
         newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
+        fetched$d = fetched$q;
+        after_first$d = after_first$q;
+        ring$clock = clock;
+        new_bank$clock = clock;
+        fetched_bank$clock = clock;
+        was_fetched$clock = clock;
         after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
+        after_fetched = fetched$q + one;
+        after_moved = after_first$q + one_place;
+        place = fetched$q[(32'h0)+:(4)];
+        after_place = place + one_place;
+        kept_data = push_data & kept_bits;
+        valid = holds_first$q | push;
+        data = first$q;
+        if (passes$q) begin
+            data = kept_data;
         end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
+        new_bank$read_address = after_first$q;
+        fetched_bank$read_address = after_first$q;
+        was_fetched$read_address = after_first$q;
+        if (pop | (~holds_first$q)) begin
+            first$d = kept_data;
+            if (holds_more$q) begin
+                first$d = new_bank$read_data;
+                if (was_fetched$read_data == from_ring) begin
+                    first$d = fetched_bank$read_data;
+                end
             end
         end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
+        holds_first$d = valid;
+        if (pop) begin
+            holds_first$d = holds_first$q & (holds_more$q | push);
         end
+        joins = push & holds_first$q;
+        spills = joins & (holds_spilled$q | window_is_full$q);
+        enters = joins & (~spills);
+        fetches = holds_spilled$q & (~window_is_full$q);
+        advances = (~window_is_full$q) & (holds_spilled$q | joins);
+        moves_up = pop & holds_first$q & (holds_more$q | push);
+        ring$write_address = newest$q;
+        ring$write_data = push_data;
+        ring$write_enable = spills;
+        ring$read_address = fetched$q;
+        ring$reset = reset;
+        ring$fetches = fetches;
+        ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
+        new_bank$write_address = place;
+        new_bank$write_data = push_data;
+        new_bank$write_enable = enters;
+        was_fetched$write_address = place;
+        was_fetched$write_data = from_user;
+        if (fetches) begin
+            was_fetched$write_data = from_ring;
+        end
+        was_fetched$write_enable = advances;
+        if (joins) begin
+            newest$d = after_newest;
+        end
+        if (advances) begin
+            fetched$d = after_fetched;
+        end
+        if (moves_up) begin
+            after_first$d = after_moved;
+        end
+        if (fetches) begin
+            holds_spilled$d = after_fetched != newest$q;
+        end
+        if (spills) begin
+            holds_spilled$d = 1'b1;
+        end
+        if (advances & (~moves_up)) begin
+            holds_more$d = 1'b1;
+            window_is_full$d = after_place == after_first$q;
+        end
+        if (moves_up & (~advances)) begin
+            holds_more$d = after_moved != place;
+            window_is_full$d = 1'b0;
+        end
+        if (reset) begin
+            holds_first$d = 1'b0;
+            holds_more$d = 1'b0;
+            window_is_full$d = 1'b0;
+            holds_spilled$d = 1'b0;
+            newest$d = nothing;
+            fetched$d = nothing;
+            after_first$d = first_place;
+        end
+        passes$d = ~holds_first$d;
     end
     
 endmodule // incircle_stream_top_engines$slot1$queue$words
 
 
-module incircle_stream_top_engines$slot1$queue$words$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_stream_top_engines$slot1$queue$words$after_first(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$after_first
+
+
+module incircle_stream_top_engines$slot1$queue$words$fetched(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$fetched
+
+
+module incircle_stream_top_engines$slot1$queue$words$fetched_bank(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -58099,10 +59891,29 @@ module incircle_stream_top_engines$slot1$queue$words$entries(clock,write_address
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_stream_top_engines$slot1$queue$words$entries
+endmodule // incircle_stream_top_engines$slot1$queue$words$fetched_bank
 
 
-module incircle_stream_top_engines$slot1$queue$words$holds_entries(d,q,clock);
+module incircle_stream_top_engines$slot1$queue$words$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$first
+
+
+module incircle_stream_top_engines$slot1$queue$words$holds_first(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -58118,19 +59929,78 @@ module incircle_stream_top_engines$slot1$queue$words$holds_entries(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$queue$words$holds_entries
+endmodule // incircle_stream_top_engines$slot1$queue$words$holds_first
+
+
+module incircle_stream_top_engines$slot1$queue$words$holds_more(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$holds_more
+
+
+module incircle_stream_top_engines$slot1$queue$words$holds_spilled(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$holds_spilled
+
+
+module incircle_stream_top_engines$slot1$queue$words$new_bank(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [31:0] memory [0:15];
+    wire [31:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot1$queue$words$new_bank
 
 
 module incircle_stream_top_engines$slot1$queue$words$newest(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -58140,7 +60010,224 @@ module incircle_stream_top_engines$slot1$queue$words$newest(d,q,clock);
 endmodule // incircle_stream_top_engines$slot1$queue$words$newest
 
 
-module incircle_stream_top_engines$slot1$queue$words$oldest(d,q,clock);
+module incircle_stream_top_engines$slot1$queue$words$passes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$passes
+
+
+module incircle_stream_top_engines$slot1$queue$words$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    input wire  fetches;
+    input wire  [3:0] place;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [31:0] fetched_data;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [7:0] memory$write_address;
+    reg  [31:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [7:0] memory$read_address;
+    wire  [31:0] memory$read_data;
+    reg  in_array$d;
+    wire  in_array$q;
+    reg  in_array$clock;
+    reg  in_output$d;
+    wire  in_output$q;
+    reg  in_output$clock;
+    reg  [3:0] place_in_array$d;
+    wire  [3:0] place_in_array$q;
+    reg  place_in_array$clock;
+    reg  [3:0] place_in_output$d;
+    wire  [3:0] place_in_output$q;
+    reg  place_in_output$clock;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot1$queue$words$ring$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_stream_top_engines$slot1$queue$words$ring$in_array in_array(
+        .d(in_array$d),
+        .q(in_array$q),
+        .clock(in_array$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$ring$in_output in_output(
+        .d(in_output$d),
+        .q(in_output$q),
+        .clock(in_output$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$ring$place_in_array place_in_array(
+        .d(place_in_array$d),
+        .q(place_in_array$q),
+        .clock(place_in_array$clock)
+    );
+    incircle_stream_top_engines$slot1$queue$words$ring$place_in_output place_in_output(
+        .d(place_in_output$d),
+        .q(place_in_output$q),
+        .clock(place_in_output$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        in_array$clock = clock;
+        in_output$clock = clock;
+        place_in_array$clock = clock;
+        place_in_output$clock = clock;
+        in_array$d = in_array$q;
+        in_output$d = in_output$q;
+        place_in_array$d = place_in_array$q;
+        place_in_output$d = place_in_output$q;
+        memory$clock = clock;
+        memory$write_address = write_address;
+        memory$write_data = write_data;
+        memory$write_enable = write_enable;
+        memory$read_address = read_address;
+        in_array$d = fetches;
+        in_output$d = in_array$q;
+        place_in_array$d = place;
+        place_in_output$d = place_in_array$q;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
+        if (reset) begin
+            in_array$d = 1'b0;
+            in_output$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot1$queue$words$ring
+
+
+module incircle_stream_top_engines$slot1$queue$words$ring$in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$ring$in_array
+
+
+module incircle_stream_top_engines$slot1$queue$words$ring$in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$ring$in_output
+
+
+module incircle_stream_top_engines$slot1$queue$words$ring$memory(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    `ifdef INCIRCLE_ECP5
+    wire [13:0] write_pins = {{2{1'b0}}, write_address, 4'b0011};
+    wire [13:0] read_pins = {{2{1'b0}}, read_address, 4'b0011};
+    wire [17:0] nothing = 18'b0;
+    wire [35:0] all_taken = {{4{1'b0}}, write_data};
+    wire [35:0] all_given;
+    wire [31:0] word = all_given[31:0];
+    genvar slice;
+    generate for (slice = 0; slice < 2; slice = slice + 1) begin : slices
+    wire [17:0] taken = all_taken[slice*18 +: 18];
+    wire [17:0] given;
+    assign all_given[slice*18 +: 18] = given[17:0];
+    DP16KD #(
+        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
+        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
+        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
+    ) block_ram (
+    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
+        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
+        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
+        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
+        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
+        .DIA16(taken[16]), .DIA17(taken[17]),
+        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
+        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
+        .DOA16(), .DOA17(),
+    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
+        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
+        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
+        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
+        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
+        .DIB16(nothing[16]), .DIB17(nothing[17]),
+        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
+        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
+        .DOB16(given[16]), .DOB17(given[17])
+    );
+    end endgenerate
+    always @(*) read_data = word;
+    `else
+    (* ram_style = "block", no_rw_check *)
+    reg [31:0] memory [0:255];
+    reg [31:0] word;
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+        word <= memory[read_address];
+        read_data <= word;
+    end
+    `endif
+endmodule // incircle_stream_top_engines$slot1$queue$words$ring$memory
+
+
+module incircle_stream_top_engines$slot1$queue$words$ring$place_in_array(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -58156,7 +60243,66 @@ module incircle_stream_top_engines$slot1$queue$words$oldest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot1$queue$words$oldest
+endmodule // incircle_stream_top_engines$slot1$queue$words$ring$place_in_array
+
+
+module incircle_stream_top_engines$slot1$queue$words$ring$place_in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$ring$place_in_output
+
+
+module incircle_stream_top_engines$slot1$queue$words$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot1$queue$words$was_fetched
+
+
+module incircle_stream_top_engines$slot1$queue$words$window_is_full(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot1$queue$words$window_is_full
 
 
 module incircle_stream_top_engines$slot2(clock,reset,push,routed,has_room,is_free,offers,beat,takes,write);
@@ -58193,14 +60339,14 @@ module incircle_stream_top_engines$slot2(clock,reset,push,routed,has_room,is_fre
     wire  queue$command$valid;
     reg  queue$command$ready;
     wire  [31:0] queue$command$data;
-    reg  [4:0] owed$d;
-    wire  [4:0] owed$q;
+    reg  [8:0] owed$d;
+    wire  [8:0] owed$q;
     reg  owed$clock;
     
     // Local signals
     reg  begins;
     reg  ends;
-    reg  [4:0] one;
+    reg  [8:0] one;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core core(
@@ -58307,19 +60453,19 @@ module incircle_stream_top_engines$slot2$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -58339,8 +60485,8 @@ module incircle_stream_top_engines$slot2$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -58583,61 +60729,40 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
-    reg  [32:0] range_end$d;
-    wire  [32:0] range_end$q;
-    reg  range_end$clock;
-    reg  [14:0] range_bound$d;
-    wire  [14:0] range_bound$q;
-    reg  range_bound$clock;
-    reg  [31:0] triple$d;
-    wire  [31:0] triple$q;
-    reg  triple$clock;
-    reg  counts_none$d;
-    wire  counts_none$q;
-    reg  counts_none$clock;
+    reg  range$clock;
+    reg  [73:0] range$request;
+    reg  [14:0] range$records;
+    wire  range$is_outside;
+    wire  range$has_none;
+    wire  [16:0] range$whole_length;
+    wire  [16:0] range$packed_length;
     reg  [2:0] insert_status$d;
     wire  [2:0] insert_status$q;
     reg  insert_status$clock;
-    reg  is_outside$d;
-    wire  is_outside$q;
-    reg  is_outside$clock;
-    reg  [31:0] read_length$d;
-    wire  [31:0] read_length$q;
-    reg  read_length$clock;
-    reg  [31:0] packed_length$d;
-    wire  [31:0] packed_length$q;
-    reg  packed_length$clock;
-    reg  reads_none$d;
-    wire  reads_none$q;
-    reg  reads_none$clock;
     reg  [2:0] report_status$d;
     wire  [2:0] report_status$q;
     reg  report_status$clock;
     reg  [2:0] answer_status$d;
     wire  [2:0] answer_status$q;
     reg  answer_status$clock;
-    reg  [31:0] answer_length$d;
-    wire  [31:0] answer_length$q;
+    reg  [16:0] answer_length$d;
+    wire  [16:0] answer_length$q;
     reg  answer_length$clock;
     reg  has_none$d;
     wire  has_none$q;
     reg  has_none$clock;
     
     // Local signals
-    reg  [32:0] wide_first;
-    reg  [32:0] wide_count;
-    reg  [32:0] wide_bound;
-    reg  [31:0] double_count;
     reg  [31:0] status;
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
@@ -58645,61 +60770,27 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
     reg  [31:0] wide_engine;
     reg  [31:0] shifted_engine;
     reg  [31:0] job;
-    reg  [31:0] none;
-    reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
     
     // Sub module instances
-    incircle_stream_top_engines$slot2$core$answer_head$range_end range_end(
-        .d(range_end$d),
-        .q(range_end$q),
-        .clock(range_end$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$range_bound range_bound(
-        .d(range_bound$d),
-        .q(range_bound$q),
-        .clock(range_bound$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$triple triple(
-        .d(triple$d),
-        .q(triple$q),
-        .clock(triple$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$counts_none counts_none(
-        .d(counts_none$d),
-        .q(counts_none$q),
-        .clock(counts_none$clock)
+    incircle_stream_top_engines$slot2$core$answer_head$range range(
+        .clock(range$clock),
+        .request(range$request),
+        .records(range$records),
+        .is_outside(range$is_outside),
+        .has_none(range$has_none),
+        .whole_length(range$whole_length),
+        .packed_length(range$packed_length)
     );
     incircle_stream_top_engines$slot2$core$answer_head$insert_status insert_status(
         .d(insert_status$d),
         .q(insert_status$q),
         .clock(insert_status$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$is_outside is_outside(
-        .d(is_outside$d),
-        .q(is_outside$q),
-        .clock(is_outside$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$read_length read_length(
-        .d(read_length$d),
-        .q(read_length$q),
-        .clock(read_length$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$packed_length packed_length(
-        .d(packed_length$d),
-        .q(packed_length$q),
-        .clock(packed_length$clock)
-    );
-    incircle_stream_top_engines$slot2$core$answer_head$reads_none reads_none(
-        .d(reads_none$d),
-        .q(reads_none$q),
-        .clock(reads_none$clock)
     );
     incircle_stream_top_engines$slot2$core$answer_head$report_status report_status(
         .d(report_status$d),
@@ -58724,46 +60815,24 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
     
     // Update code
     always @(*) begin
-        range_end$clock = clock;
-        range_bound$clock = clock;
-        triple$clock = clock;
-        counts_none$clock = clock;
         insert_status$clock = clock;
-        range_end$d = range_end$q;
-        range_bound$d = range_bound$q;
-        triple$d = triple$q;
-        counts_none$d = counts_none$q;
-        insert_status$d = insert_status$q;
-        is_outside$clock = clock;
-        read_length$clock = clock;
-        packed_length$clock = clock;
-        reads_none$clock = clock;
         report_status$clock = clock;
-        is_outside$d = is_outside$q;
-        read_length$d = read_length$q;
-        packed_length$d = packed_length$q;
-        reads_none$d = reads_none$q;
-        report_status$d = report_status$q;
         answer_status$clock = clock;
         answer_length$clock = clock;
         has_none$clock = clock;
+        insert_status$d = insert_status$q;
+        report_status$d = report_status$q;
         answer_status$d = answer_status$q;
         answer_length$d = answer_length$q;
         has_none$d = has_none$q;
-        none = 32'h0;
-        one = 32'h1;
+        range$clock = clock;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
-        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
-        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        range_end$d = wide_first + wide_count;
-        range_bound$d = records;
-        double_count = request[(64'h28)+:(32)] << one;
-        triple$d = double_count + request[(64'h28)+:(32)];
-        counts_none$d = request[(64'h28)+:(32)] == none;
+        range$request = request;
+        range$records = records;
         insert_status$d = 32'h0;
         if (some_refused) begin
             insert_status$d = 32'h4;
@@ -58774,12 +60843,6 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         if (stuck) begin
             insert_status$d = 32'h6;
         end
-        wide_bound = ((range_bound$q) & 33'h1ffffffff);
-        is_outside$d = range_end$q > wide_bound;
-        read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
-        reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
         answer_length$d = 32'h0;
@@ -58803,9 +60866,9 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
                 end
             4:
                 begin
-                    answer_length$d = read_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$whole_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -58821,9 +60884,9 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
                 end
             7:
                 begin
-                    answer_length$d = packed_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$packed_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -58837,8 +60900,10 @@ module incircle_stream_top_engines$slot2$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
-        head[(64'h20)+:(32)] = answer_length$q;
+        head[(64'h20)+:(32)] = ((answer_length$q) & 32'hffffffff);
         head[(64'h40)+:(1)] = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
         shifted_status = status << status_shift;
@@ -58856,13 +60921,13 @@ endmodule // incircle_stream_top_engines$slot2$core$answer_head
 module incircle_stream_top_engines$slot2$core$answer_head$answer_length(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [16:0] d;
+    output reg  [16:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 17'h0;
     end
     
     always @(posedge clock) begin
@@ -58889,25 +60954,6 @@ module incircle_stream_top_engines$slot2$core$answer_head$answer_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$answer_head$answer_status
-
-
-module incircle_stream_top_engines$slot2$core$answer_head$counts_none(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$counts_none
 
 
 module incircle_stream_top_engines$slot2$core$answer_head$has_none(d,q,clock);
@@ -58948,45 +60994,174 @@ module incircle_stream_top_engines$slot2$core$answer_head$insert_status(d,q,cloc
 endmodule // incircle_stream_top_engines$slot2$core$answer_head$insert_status
 
 
-module incircle_stream_top_engines$slot2$core$answer_head$is_outside(d,q,clock);
+module incircle_stream_top_engines$slot2$core$answer_head$range(clock,request,records,is_outside,has_none,whole_length,packed_length);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
     input wire  clock;
+    input wire  [73:0] request;
+    input wire  [14:0] records;
+    output reg  is_outside;
+    output reg  has_none;
+    output reg  [16:0] whole_length;
+    output reg  [16:0] packed_length;
     
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
+    // Stub signals
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
+    reg  [14:0] bound$d;
+    wire  [14:0] bound$q;
+    reg  bound$clock;
+    reg  counts_none$d;
+    wire  counts_none$q;
+    reg  counts_none$clock;
+    reg  [16:0] triple$d;
+    wire  [16:0] triple$q;
+    reg  triple$clock;
+    reg  [16:0] number$d;
+    wire  [16:0] number$q;
+    reg  number$clock;
+    reg  [16:0] enlarged$d;
+    wire  [16:0] enlarged$q;
+    reg  enlarged$clock;
+    reg  outside$d;
+    wire  outside$q;
+    reg  outside$clock;
+    reg  reads_none$d;
+    wire  reads_none$q;
+    reg  reads_none$clock;
+    reg  [16:0] whole$d;
+    wire  [16:0] whole$q;
+    reg  whole$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
+    
+    // Local signals
+    reg  [32:0] wide_first;
+    reg  [32:0] wide_count;
+    reg  [32:0] wide_bound;
+    reg  [31:0] none;
+    reg  [14:0] few;
+    reg  [16:0] count;
+    reg  [16:0] more;
+    reg  [16:0] added;
+    reg  [16:0] one;
+    reg  [16:0] three;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot2$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$bound bound(
+        .d(bound$d),
+        .q(bound$q),
+        .clock(bound$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$counts_none counts_none(
+        .d(counts_none$d),
+        .q(counts_none$q),
+        .clock(counts_none$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$enlarged enlarged(
+        .d(enlarged$d),
+        .q(enlarged$q),
+        .clock(enlarged$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$outside outside(
+        .d(outside$d),
+        .q(outside$q),
+        .clock(outside$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$reads_none reads_none(
+        .d(reads_none$d),
+        .q(reads_none$q),
+        .clock(reads_none$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$whole whole(
+        .d(whole$d),
+        .q(whole$q),
+        .clock(whole$clock)
+    );
+    incircle_stream_top_engines$slot2$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        range_end$clock = clock;
+        bound$clock = clock;
+        counts_none$clock = clock;
+        triple$clock = clock;
+        number$clock = clock;
+        enlarged$clock = clock;
+        range_end$d = range_end$q;
+        bound$d = bound$q;
+        counts_none$d = counts_none$q;
+        triple$d = triple$q;
+        number$d = number$q;
+        enlarged$d = enlarged$q;
+        outside$clock = clock;
+        reads_none$clock = clock;
+        whole$clock = clock;
+        vertices$clock = clock;
+        outside$d = outside$q;
+        reads_none$d = reads_none$q;
+        whole$d = whole$q;
+        vertices$d = vertices$q;
+        none = 32'h0;
+        one = 32'h1;
+        three = 32'h3;
+        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
+        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
+        range_end$d = wide_first + wide_count;
+        bound$d = records;
+        counts_none$d = request[(64'h28)+:(32)] == none;
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        count = ((few) & 17'h1ffff);
+        triple$d = count + (count << one);
+        number$d = count;
+        added = 32'h1;
+        if (request[(64'h48)+:(1)]) begin
+            added = 32'h7;
+        end
+        enlarged$d = count + added;
+        wide_bound = ((bound$q) & 33'h1ffffffff);
+        outside$d = range_end$q > wide_bound;
+        reads_none$d = counts_none$q;
+        whole$d = triple$q;
+        more = enlarged$q >> one;
+        if (request[(64'h48)+:(1)]) begin
+            more = enlarged$q >> three;
+            if (~request[(64'h49)+:(1)]) begin
+                more = 32'h0;
+            end
+        end
+        vertices$d = number$q + more;
+        is_outside = outside$q;
+        has_none = reads_none$q;
+        whole_length = whole$q;
+        packed_length = vertices$q;
     end
     
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$is_outside
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range
 
 
-module incircle_stream_top_engines$slot2$core$answer_head$packed_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$packed_length
-
-
-module incircle_stream_top_engines$slot2$core$answer_head$range_bound(d,q,clock);
+module incircle_stream_top_engines$slot2$core$answer_head$range$bound(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -59002,48 +61177,10 @@ module incircle_stream_top_engines$slot2$core$answer_head$range_bound(d,q,clock)
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$range_bound
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$bound
 
 
-module incircle_stream_top_engines$slot2$core$answer_head$range_end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$range_end
-
-
-module incircle_stream_top_engines$slot2$core$answer_head$read_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$read_length
-
-
-module incircle_stream_top_engines$slot2$core$answer_head$reads_none(d,q,clock);
+module incircle_stream_top_engines$slot2$core$answer_head$range$counts_none(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -59059,7 +61196,159 @@ module incircle_stream_top_engines$slot2$core$answer_head$reads_none(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$reads_none
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$counts_none
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$enlarged(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$enlarged
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$number
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$outside(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$outside
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$range_end(d,q,clock);
+    
+    // Module arguments
+    input wire  [32:0] d;
+    output reg  [32:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 33'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$range_end
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$reads_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$reads_none
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$triple
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$vertices
+
+
+module incircle_stream_top_engines$slot2$core$answer_head$range$whole(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$answer_head$range$whole
 
 
 module incircle_stream_top_engines$slot2$core$answer_head$report_status(d,q,clock);
@@ -59079,25 +61368,6 @@ module incircle_stream_top_engines$slot2$core$answer_head$report_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$answer_head$report_status
-
-
-module incircle_stream_top_engines$slot2$core$answer_head$triple(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$answer_head$triple
 
 
 module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
@@ -59136,6 +61406,7 @@ module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core$answer_words$identity identity(
@@ -59165,6 +61436,7 @@ module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -59201,7 +61473,7 @@ module incircle_stream_top_engines$slot2$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -59303,7 +61575,7 @@ module incircle_stream_top_engines$slot2$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -59320,8 +61592,8 @@ module incircle_stream_top_engines$slot2$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -59467,6 +61739,8 @@ module incircle_stream_top_engines$slot2$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -60040,13 +62314,13 @@ endmodule // incircle_stream_top_engines$slot2$core$command_port$gate
 module incircle_stream_top_engines$slot2$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -82360,8 +84634,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -82416,6 +84690,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -82474,6 +84750,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -82518,6 +84796,8 @@ module incircle_stream_top_engines$slot2$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -82618,7 +84898,7 @@ module incircle_stream_top_engines$slot2$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot2$core$responder$offered
 
 
-module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -82627,6 +84907,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -82640,6 +84922,12 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -82660,6 +84948,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -82683,6 +84973,16 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot2$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -82715,6 +85015,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -82736,6 +85038,11 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -82743,7 +85050,6 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -82754,6 +85060,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = is_packed & has_short_ids;
+        rests_follow$d = is_packed & has_short_ids & has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -82774,6 +85082,8 @@ module incircle_stream_top_engines$slot2$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -82810,6 +85120,25 @@ module incircle_stream_top_engines$slot2$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$is_second(d,q,clock);
@@ -82907,6 +85236,25 @@ module incircle_stream_top_engines$slot2$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot2$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot2$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -82926,7 +85274,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -82934,6 +85282,8 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -82954,14 +85304,19 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
+    wire  [3:0] halves$rest;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
+    reg  [3:0] packer$rest;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -82999,7 +85354,9 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
-        .halves(halves$halves)
+        .has_short_ids(halves$has_short_ids),
+        .halves(halves$halves),
+        .rest(halves$rest)
     );
     incircle_stream_top_engines$slot2$core$responder$records$stream$packer packer(
         .clock(packer$clock),
@@ -83007,8 +85364,11 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
+        .rest(packer$rest),
         .valid(packer$valid),
         .beat(packer$beat)
     );
@@ -83045,9 +85405,13 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
+        packer$rest = halves$rest;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -83073,13 +85437,15 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves,rest);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
+    output reg  [3:0] rest;
     
     // Stub signals
     reg  [90:0] kept$d;
@@ -83100,6 +85466,13 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [3:0] two_bits;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core$responder$records$stream$halves$kept kept(
@@ -83114,6 +85487,13 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two_bits = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -83139,7 +85519,12 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+            end
         end
+        rest = ((vertex1[(32'ha)+:(2)]) & 4'hf) | (((vertex2[(32'ha)+:(2)]) & 4'hf) << two_bits);
     end
     
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$halves
@@ -83194,7 +85579,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,rest,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -83202,17 +85587,20 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
+    input wire  [3:0] rest;
     output reg  valid;
     output reg  [65:0] beat;
     
     // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -83221,31 +85609,38 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [2:0] number$d;
-    wire  [2:0] number$q;
-    reg  number$clock;
     reg  [63:0] kept$d;
     wire  [63:0] kept$q;
     reg  kept$clock;
-    reg  many_are_kept$d;
-    wire  many_are_kept$q;
-    reg  many_are_kept$clock;
-    reg  [14:0] left$d;
-    wire  [14:0] left$q;
-    reg  left$clock;
-    reg  is_last$d;
-    wire  is_last$q;
-    reg  is_last$clock;
-    reg  all_came$d;
-    wire  all_came$q;
-    reg  all_came$clock;
+    reg  number$clock;
+    reg  number$reset;
+    reg  number$vertices_alone;
+    reg  number$has_short_ids;
+    reg  number$comes;
+    reg  number$is_last;
+    reg  number$brings_rests;
+    reg  number$all_came;
+    wire  [2:0] number$number;
+    wire  number$fills;
+    wire  number$moves;
+    wire  number$both;
+    wire  number$last;
+    reg  group$clock;
+    reg  group$starts;
+    reg  [14:0] group$count;
+    reg  group$comes;
+    reg  [3:0] group$rest;
+    wire  group$is_last;
+    wire  group$ends_group;
+    wire  group$all_came;
+    wire  [31:0] group$rests;
     
     // Local signals
-    reg  takes;
+    reg  brings_rests;
+    reg  [15:0] third;
+    reg  [15:0] fourth;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
-    reg  [14:0] one;
-    reg  [14:0] two;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is_there is_there(
@@ -83258,170 +85653,133 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer(cl
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number number(
-        .d(number$d),
-        .q(number$q),
-        .clock(number$clock)
-    );
     incircle_stream_top_engines$slot2$core$responder$records$stream$packer$kept kept(
         .d(kept$d),
         .q(kept$q),
         .clock(kept$clock)
     );
-    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$many_are_kept many_are_kept(
-        .d(many_are_kept$d),
-        .q(many_are_kept$q),
-        .clock(many_are_kept$clock)
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number number(
+        .clock(number$clock),
+        .reset(number$reset),
+        .vertices_alone(number$vertices_alone),
+        .has_short_ids(number$has_short_ids),
+        .comes(number$comes),
+        .is_last(number$is_last),
+        .brings_rests(number$brings_rests),
+        .all_came(number$all_came),
+        .number(number$number),
+        .fills(number$fills),
+        .moves(number$moves),
+        .both(number$both),
+        .last(number$last)
     );
-    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
-    );
-    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is_last is_last(
-        .d(is_last$d),
-        .q(is_last$q),
-        .clock(is_last$clock)
-    );
-    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$all_came all_came(
-        .d(all_came$d),
-        .q(all_came$q),
-        .clock(all_came$clock)
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group group(
+        .clock(group$clock),
+        .starts(group$starts),
+        .count(group$count),
+        .comes(group$comes),
+        .rest(group$rest),
+        .is_last(group$is_last),
+        .ends_group(group$ends_group),
+        .all_came(group$all_came),
+        .rests(group$rests)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        number$clock = clock;
         kept$clock = clock;
-        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        number$d = number$q;
         kept$d = kept$q;
-        many_are_kept$d = many_are_kept$q;
-        left$clock = clock;
-        is_last$clock = clock;
-        all_came$clock = clock;
-        left$d = left$q;
-        is_last$d = is_last$q;
-        all_came$d = all_came$q;
-        one = 32'h1;
-        two = 32'h2;
+        number$clock = clock;
+        group$clock = clock;
         valid = is_there$q;
         beat = filled$q;
+        group$starts = starts;
+        group$count = count;
+        group$comes = comes;
+        group$rest = rest;
+        brings_rests = has_rests & group$ends_group;
+        number$reset = reset;
+        number$vertices_alone = vertices_alone;
+        number$has_short_ids = has_short_ids;
+        number$comes = comes;
+        number$is_last = group$is_last;
+        number$brings_rests = brings_rests;
+        number$all_came = group$all_came;
+        is_there$d = number$fills;
+        filled$d[(64'h40)+:(1)] = number$both;
+        filled$d[(64'h41)+:(1)] = number$last;
+        third = halves[(64'h20)+:(16)];
+        fourth = halves[(64'h30)+:(16)];
+        if (has_short_ids) begin
+            third = group$rests[(32'h0)+:(16)];
+            fourth = group$rests[(32'h10)+:(16)];
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
         kept$d[(64'h30)+:(16)] = 32'h0;
-        many_are_kept$d = 1'b0;
-        takes = comes;
-        is_there$d = comes;
-        filled$d[(64'h40)+:(1)] = 1'b1;
-        filled$d[(64'h41)+:(1)] = 1'b0;
-        case (number$q)
-            KeptHalves$Zero:
+        case (number$number)
+            KeptNumber$Zero:
                 begin
                     sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    sent[(64'h20)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = fourth;
                     kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
-                    number$d = KeptHalves$Two;
                     if (vertices_alone) begin
-                        is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Three;
+                        if (~has_short_ids) begin
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        end
                     end
                 end
-            KeptHalves$One:
+            KeptNumber$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
-                    filled$d[(64'h41)+:(1)] = is_last$q;
-                    number$d = KeptHalves$Zero;
                 end
-            KeptHalves$Two:
+            KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$One;
+                    kept$d[(64'h0)+:(16)] = third;
+                    if (has_short_ids | (~vertices_alone)) begin
+                        kept$d[(64'h10)+:(16)] = fourth;
+                    end
                     if (~vertices_alone) begin
-                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
                         kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Rest;
                     end
                 end
-            KeptHalves$Three:
+            KeptNumber$Three:
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
-                    takes = 1'b1;
-                    is_there$d = 1'b1;
-                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
-                    filled$d[(64'h41)+:(1)] = all_came$q;
-                    number$d = KeptHalves$Zero;
                 end
         endcase
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
-        if (comes) begin
-            left$d = left$q - one;
-            is_last$d = left$q == two;
-            all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
-                number$d = KeptHalves$Rest;
-            end
-        end
-        if (~takes) begin
-            number$d = number$q;
+        if (~number$moves) begin
             kept$d = kept$q;
-        end
-        if (starts) begin
-            left$d = count;
-            is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            number$d = KeptHalves$Zero;
         end
     end
     
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer
-
-
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$all_came(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$all_came
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$filled(d,q,clock);
@@ -83443,7 +85801,157 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$fi
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$filled
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is_last(d,q,clock);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group(clock,starts,count,comes,rest,is_last,ends_group,all_came,rests);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [3:0] rest;
+    output reg  is_last;
+    output reg  ends_group;
+    output reg  all_came;
+    output reg  [31:0] rests;
+    
+    // Stub signals
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  none_is_left$d;
+    wire  none_is_left$q;
+    reg  none_is_left$clock;
+    reg  [2:0] place$d;
+    wire  [2:0] place$q;
+    reg  place$clock;
+    reg  [31:0] earlier$d;
+    wire  [31:0] earlier$q;
+    reg  earlier$clock;
+    
+    // Local signals
+    reg  [31:0] together;
+    reg  ends;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [2:0] one_place;
+    reg  [2:0] last_place;
+    reg  [31:0] rest_bits;
+    reg  [31:0] rest_shift;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$none_is_left none_is_left(
+        .d(none_is_left$d),
+        .q(none_is_left$q),
+        .clock(none_is_left$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$earlier earlier(
+        .d(earlier$d),
+        .q(earlier$q),
+        .clock(earlier$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        left$clock = clock;
+        one_is_left$clock = clock;
+        none_is_left$clock = clock;
+        place$clock = clock;
+        earlier$clock = clock;
+        left$d = left$q;
+        one_is_left$d = one_is_left$q;
+        none_is_left$d = none_is_left$q;
+        place$d = place$q;
+        earlier$d = earlier$q;
+        one = 32'h1;
+        two = 32'h2;
+        one_place = 32'h1;
+        last_place = 32'h7;
+        rest_bits = 32'h4;
+        rest_shift = 32'h1c;
+        is_last = one_is_left$q;
+        all_came = none_is_left$q;
+        ends = one_is_left$q | (place$q == last_place);
+        ends_group = ends;
+        together = (earlier$q >> rest_bits) | (((rest) & 32'hffffffff) << rest_shift);
+        rests = together;
+        if (comes) begin
+            left$d = left$q - one;
+            one_is_left$d = left$q == two;
+            none_is_left$d = one_is_left$q;
+            place$d = place$q + one_place;
+            earlier$d = together;
+            if (ends) begin
+                earlier$d = 32'h0;
+            end
+        end
+        if (starts) begin
+            left$d = count;
+            one_is_left$d = count == one;
+            place$d = 32'h0;
+            earlier$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$earlier(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$earlier
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$left
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$none_is_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -83459,7 +85967,45 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is_last
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$none_is_left
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$one_is_left
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$group$place
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$is_there(d,q,clock);
@@ -83500,26 +86046,149 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$ke
 endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$kept
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$left(d,q,clock);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number(clock,reset,vertices_alone,has_short_ids,comes,is_last,brings_rests,all_came,number,fills,moves,both,last);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
     input wire  clock;
+    input wire  reset;
+    input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  comes;
+    input wire  is_last;
+    input wire  brings_rests;
+    input wire  all_came;
+    output reg  [2:0] number;
+    output reg  fills;
+    output reg  moves;
+    output reg  both;
+    output reg  last;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
+    
+    // Stub signals
+    reg  [2:0] kept$d;
+    wire  [2:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
+    
+    // Local signals
+    reg  [2:0] leaves;
+    reg  leaves_none;
+    reg  is_rest;
+    reg  takes;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        many_are_kept$clock = clock;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        number = kept$q;
+        is_rest = kept$q == KeptNumber$Rest;
+        takes = comes | is_rest;
+        moves = takes;
+        fills = takes;
+        leaves = KeptNumber$Zero;
+        case (kept$q)
+            KeptNumber$Zero:
+                begin
+                    if (~brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (vertices_alone) begin
+                        fills = comes & brings_rests;
+                        if (~has_short_ids) begin
+                            leaves = KeptNumber$Three;
+                        end
+                    end
+                end
+            KeptNumber$Two:
+                begin
+                    if (~has_short_ids) begin
+                        leaves = KeptNumber$One;
+                    end
+                    if (brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (~vertices_alone) begin
+                        leaves = KeptNumber$Rest;
+                    end
+                end
+            KeptNumber$Three:
+                begin
+                    leaves = KeptNumber$Two;
+                end
+            default:
+                begin
+                end
+        endcase
+        leaves_none = leaves == KeptNumber$Zero;
+        both = many_are_kept$q | (~is_rest);
+        last = is_last & leaves_none;
+        if (is_rest) begin
+            last = all_came;
+        end
+        if (takes) begin
+            many_are_kept$d = (leaves == KeptNumber$Three) | (leaves == KeptNumber$Rest);
+            kept$d = leaves;
+            if (is_last & (~leaves_none)) begin
+                kept$d = KeptNumber$Rest;
+            end
+        end
+        if (reset) begin
+            kept$d = KeptNumber$Zero;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$left
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number$kept
 
 
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$many_are_kept(d,q,clock);
+module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number$many_are_kept(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -83535,33 +86204,7 @@ module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$ma
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$many_are_kept
-
-
-module incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number
+endmodule // incircle_stream_top_engines$slot2$core$responder$records$stream$packer$number$many_are_kept
 
 
 module incircle_stream_top_engines$slot2$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -83895,8 +86538,8 @@ module incircle_stream_top_engines$slot2$core$responder$words(clock,reset,prepar
     reg  [6:0] following$d;
     wire  [6:0] following$q;
     reg  following$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
+    reg  [7:0] left$d;
+    wire  [7:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
@@ -83911,8 +86554,9 @@ module incircle_stream_top_engines$slot2$core$responder$words(clock,reset,prepar
     // Local signals
     reg  is_choosing;
     reg  [31:0] no_word;
-    reg  [31:0] one;
-    reg  [31:0] two;
+    reg  [7:0] words;
+    reg  [7:0] one;
+    reg  [7:0] two;
     reg  [6:0] one_word;
     
     // Sub module instances
@@ -83965,6 +86609,7 @@ module incircle_stream_top_engines$slot2$core$responder$words(clock,reset,prepar
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
+        words = length[(32'h0)+:(8)];
         index = loaded$q;
         index_ahead = following$q;
         valid = is_chosen$q;
@@ -83990,8 +86635,8 @@ module incircle_stream_top_engines$slot2$core$responder$words(clock,reset,prepar
         end
         if (starts) begin
             loaded$d = 32'h0;
-            left$d = length;
-            is_last$d = length == one;
+            left$d = words;
+            is_last$d = words == one;
         end
         if (reset) begin
             waited$d = 1'b0;
@@ -84062,13 +86707,13 @@ endmodule // incircle_stream_top_engines$slot2$core$responder$words$is_last
 module incircle_stream_top_engines$slot2$core$responder$words$left(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -84119,13 +86764,13 @@ endmodule // incircle_stream_top_engines$slot2$core$responder$words$waited
 module incircle_stream_top_engines$slot2$owed(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -84148,8 +86793,8 @@ module incircle_stream_top_engines$slot2$queue(clock,reset,push,word,has_room,co
     output reg  [31:0] command$data;
     
     // Stub signals
-    reg  [4:0] waiting$d;
-    wire  [4:0] waiting$q;
+    reg  [8:0] waiting$d;
+    wire  [8:0] waiting$q;
     reg  waiting$clock;
     reg  came$d;
     wire  came$q;
@@ -84167,8 +86812,8 @@ module incircle_stream_top_engines$slot2$queue(clock,reset,push,word,has_room,co
     
     // Local signals
     reg  takes;
-    reg  [4:0] one;
-    reg  [4:0] all;
+    reg  [8:0] one;
+    reg  [8:0] all;
     
     // Sub module instances
     incircle_stream_top_engines$slot2$queue$waiting waiting(
@@ -84206,7 +86851,7 @@ module incircle_stream_top_engines$slot2$queue(clock,reset,push,word,has_room,co
         newest$d = newest$q;
         words$clock = clock;
         one = 32'h1;
-        all = 32'h10;
+        all = 32'h100;
         has_room = waiting$q != all;
         came$d = push;
         newest$d = word;
@@ -84273,13 +86918,13 @@ endmodule // incircle_stream_top_engines$slot2$queue$newest
 module incircle_stream_top_engines$slot2$queue$waiting(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -84301,103 +86946,323 @@ module incircle_stream_top_engines$slot2$queue$words(clock,reset,push,push_data,
     output reg  [31:0] data;
     
     // Constant declarations
-    localparam  one = 4'h1;
-    localparam  nothing = 4'h0;
+    localparam  one = 8'h1;
+    localparam  one_place = 4'h1;
+    localparam  nothing = 8'h0;
+    localparam  first_place = 4'h0;
+    localparam  from_user = 1'b0;
+    localparam  from_ring = 1'b1;
     localparam  kept_bits = 32'hffffffff;
     
     // Stub signals
-    reg  entries$clock;
-    reg  [3:0] entries$write_address;
-    reg  [31:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [3:0] entries$read_address;
-    wire  [31:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [3:0] newest$d;
-    wire  [3:0] newest$q;
+    reg  ring$clock;
+    reg  ring$reset;
+    reg  [7:0] ring$write_address;
+    reg  [31:0] ring$write_data;
+    reg  ring$write_enable;
+    reg  [7:0] ring$read_address;
+    reg  ring$fetches;
+    reg  [3:0] ring$place;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [31:0] ring$fetched_data;
+    reg  new_bank$clock;
+    reg  [3:0] new_bank$write_address;
+    reg  [31:0] new_bank$write_data;
+    reg  new_bank$write_enable;
+    reg  [3:0] new_bank$read_address;
+    wire  [31:0] new_bank$read_data;
+    reg  fetched_bank$clock;
+    reg  [3:0] fetched_bank$write_address;
+    reg  [31:0] fetched_bank$write_data;
+    reg  fetched_bank$write_enable;
+    reg  [3:0] fetched_bank$read_address;
+    wire  [31:0] fetched_bank$read_data;
+    reg  was_fetched$clock;
+    reg  [3:0] was_fetched$write_address;
+    reg  was_fetched$write_data;
+    reg  was_fetched$write_enable;
+    reg  [3:0] was_fetched$read_address;
+    wire  was_fetched$read_data;
+    reg  holds_first$d;
+    wire  holds_first$q;
+    reg  holds_first$clock;
+    reg  passes$d;
+    wire  passes$q;
+    reg  passes$clock;
+    reg  [31:0] first$d;
+    wire  [31:0] first$q;
+    reg  first$clock;
+    reg  holds_more$d;
+    wire  holds_more$q;
+    reg  holds_more$clock;
+    reg  window_is_full$d;
+    wire  window_is_full$q;
+    reg  window_is_full$clock;
+    reg  holds_spilled$d;
+    wire  holds_spilled$q;
+    reg  holds_spilled$clock;
+    reg  [7:0] newest$d;
+    wire  [7:0] newest$q;
     reg  newest$clock;
-    reg  [3:0] oldest$d;
-    wire  [3:0] oldest$q;
-    reg  oldest$clock;
+    reg  [7:0] fetched$d;
+    wire  [7:0] fetched$q;
+    reg  fetched$clock;
+    reg  [3:0] after_first$d;
+    wire  [3:0] after_first$q;
+    reg  after_first$clock;
     
     // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [3:0] after_newest;
-    reg  [3:0] after_oldest;
+    reg  [31:0] kept_data;
+    reg  joins;
+    reg  moves_up;
+    reg  spills;
+    reg  enters;
+    reg  fetches;
+    reg  advances;
+    reg  [7:0] after_newest;
+    reg  [7:0] after_fetched;
+    reg  [3:0] after_moved;
+    reg  [3:0] place;
+    reg  [3:0] after_place;
     
     // Sub module instances
-    incircle_stream_top_engines$slot2$queue$words$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
+    incircle_stream_top_engines$slot2$queue$words$ring ring(
+        .clock(ring$clock),
+        .reset(ring$reset),
+        .write_address(ring$write_address),
+        .write_data(ring$write_data),
+        .write_enable(ring$write_enable),
+        .read_address(ring$read_address),
+        .fetches(ring$fetches),
+        .place(ring$place),
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
-    incircle_stream_top_engines$slot2$queue$words$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
+    incircle_stream_top_engines$slot2$queue$words$new_bank new_bank(
+        .clock(new_bank$clock),
+        .write_address(new_bank$write_address),
+        .write_data(new_bank$write_data),
+        .write_enable(new_bank$write_enable),
+        .read_address(new_bank$read_address),
+        .read_data(new_bank$read_data)
+    );
+    incircle_stream_top_engines$slot2$queue$words$fetched_bank fetched_bank(
+        .clock(fetched_bank$clock),
+        .write_address(fetched_bank$write_address),
+        .write_data(fetched_bank$write_data),
+        .write_enable(fetched_bank$write_enable),
+        .read_address(fetched_bank$read_address),
+        .read_data(fetched_bank$read_data)
+    );
+    incircle_stream_top_engines$slot2$queue$words$was_fetched was_fetched(
+        .clock(was_fetched$clock),
+        .write_address(was_fetched$write_address),
+        .write_data(was_fetched$write_data),
+        .write_enable(was_fetched$write_enable),
+        .read_address(was_fetched$read_address),
+        .read_data(was_fetched$read_data)
+    );
+    incircle_stream_top_engines$slot2$queue$words$holds_first holds_first(
+        .d(holds_first$d),
+        .q(holds_first$q),
+        .clock(holds_first$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$passes passes(
+        .d(passes$d),
+        .q(passes$q),
+        .clock(passes$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$holds_more holds_more(
+        .d(holds_more$d),
+        .q(holds_more$q),
+        .clock(holds_more$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$window_is_full window_is_full(
+        .d(window_is_full$d),
+        .q(window_is_full$q),
+        .clock(window_is_full$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$holds_spilled holds_spilled(
+        .d(holds_spilled$d),
+        .q(holds_spilled$q),
+        .clock(holds_spilled$clock)
     );
     incircle_stream_top_engines$slot2$queue$words$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_stream_top_engines$slot2$queue$words$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
+    incircle_stream_top_engines$slot2$queue$words$fetched fetched(
+        .d(fetched$d),
+        .q(fetched$q),
+        .clock(fetched$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$after_first after_first(
+        .d(after_first$d),
+        .q(after_first$q),
+        .clock(after_first$clock)
     );
     
     // Update code
     always @(*) begin
-        holds_entries$clock = clock;
+        holds_first$clock = clock;
+        passes$clock = clock;
+        first$clock = clock;
+        holds_more$clock = clock;
+        window_is_full$clock = clock;
+        holds_spilled$clock = clock;
+        holds_first$d = holds_first$q;
+        passes$d = passes$q;
+        first$d = first$q;
+        holds_more$d = holds_more$q;
+        window_is_full$d = window_is_full$q;
+        holds_spilled$d = holds_spilled$q;
         newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
+        fetched$clock = clock;
+        after_first$clock = clock;
         newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
+        fetched$d = fetched$q;
+        after_first$d = after_first$q;
+        ring$clock = clock;
+        new_bank$clock = clock;
+        fetched_bank$clock = clock;
+        was_fetched$clock = clock;
         after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
+        after_fetched = fetched$q + one;
+        after_moved = after_first$q + one_place;
+        place = fetched$q[(32'h0)+:(4)];
+        after_place = place + one_place;
+        kept_data = push_data & kept_bits;
+        valid = holds_first$q | push;
+        data = first$q;
+        if (passes$q) begin
+            data = kept_data;
         end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
+        new_bank$read_address = after_first$q;
+        fetched_bank$read_address = after_first$q;
+        was_fetched$read_address = after_first$q;
+        if (pop | (~holds_first$q)) begin
+            first$d = kept_data;
+            if (holds_more$q) begin
+                first$d = new_bank$read_data;
+                if (was_fetched$read_data == from_ring) begin
+                    first$d = fetched_bank$read_data;
+                end
             end
         end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
+        holds_first$d = valid;
+        if (pop) begin
+            holds_first$d = holds_first$q & (holds_more$q | push);
         end
+        joins = push & holds_first$q;
+        spills = joins & (holds_spilled$q | window_is_full$q);
+        enters = joins & (~spills);
+        fetches = holds_spilled$q & (~window_is_full$q);
+        advances = (~window_is_full$q) & (holds_spilled$q | joins);
+        moves_up = pop & holds_first$q & (holds_more$q | push);
+        ring$write_address = newest$q;
+        ring$write_data = push_data;
+        ring$write_enable = spills;
+        ring$read_address = fetched$q;
+        ring$reset = reset;
+        ring$fetches = fetches;
+        ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
+        new_bank$write_address = place;
+        new_bank$write_data = push_data;
+        new_bank$write_enable = enters;
+        was_fetched$write_address = place;
+        was_fetched$write_data = from_user;
+        if (fetches) begin
+            was_fetched$write_data = from_ring;
+        end
+        was_fetched$write_enable = advances;
+        if (joins) begin
+            newest$d = after_newest;
+        end
+        if (advances) begin
+            fetched$d = after_fetched;
+        end
+        if (moves_up) begin
+            after_first$d = after_moved;
+        end
+        if (fetches) begin
+            holds_spilled$d = after_fetched != newest$q;
+        end
+        if (spills) begin
+            holds_spilled$d = 1'b1;
+        end
+        if (advances & (~moves_up)) begin
+            holds_more$d = 1'b1;
+            window_is_full$d = after_place == after_first$q;
+        end
+        if (moves_up & (~advances)) begin
+            holds_more$d = after_moved != place;
+            window_is_full$d = 1'b0;
+        end
+        if (reset) begin
+            holds_first$d = 1'b0;
+            holds_more$d = 1'b0;
+            window_is_full$d = 1'b0;
+            holds_spilled$d = 1'b0;
+            newest$d = nothing;
+            fetched$d = nothing;
+            after_first$d = first_place;
+        end
+        passes$d = ~holds_first$d;
     end
     
 endmodule // incircle_stream_top_engines$slot2$queue$words
 
 
-module incircle_stream_top_engines$slot2$queue$words$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_stream_top_engines$slot2$queue$words$after_first(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$after_first
+
+
+module incircle_stream_top_engines$slot2$queue$words$fetched(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$fetched
+
+
+module incircle_stream_top_engines$slot2$queue$words$fetched_bank(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -84415,10 +87280,29 @@ module incircle_stream_top_engines$slot2$queue$words$entries(clock,write_address
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_stream_top_engines$slot2$queue$words$entries
+endmodule // incircle_stream_top_engines$slot2$queue$words$fetched_bank
 
 
-module incircle_stream_top_engines$slot2$queue$words$holds_entries(d,q,clock);
+module incircle_stream_top_engines$slot2$queue$words$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$first
+
+
+module incircle_stream_top_engines$slot2$queue$words$holds_first(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -84434,19 +87318,78 @@ module incircle_stream_top_engines$slot2$queue$words$holds_entries(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$queue$words$holds_entries
+endmodule // incircle_stream_top_engines$slot2$queue$words$holds_first
+
+
+module incircle_stream_top_engines$slot2$queue$words$holds_more(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$holds_more
+
+
+module incircle_stream_top_engines$slot2$queue$words$holds_spilled(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$holds_spilled
+
+
+module incircle_stream_top_engines$slot2$queue$words$new_bank(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [31:0] memory [0:15];
+    wire [31:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot2$queue$words$new_bank
 
 
 module incircle_stream_top_engines$slot2$queue$words$newest(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -84456,7 +87399,224 @@ module incircle_stream_top_engines$slot2$queue$words$newest(d,q,clock);
 endmodule // incircle_stream_top_engines$slot2$queue$words$newest
 
 
-module incircle_stream_top_engines$slot2$queue$words$oldest(d,q,clock);
+module incircle_stream_top_engines$slot2$queue$words$passes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$passes
+
+
+module incircle_stream_top_engines$slot2$queue$words$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    input wire  fetches;
+    input wire  [3:0] place;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [31:0] fetched_data;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [7:0] memory$write_address;
+    reg  [31:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [7:0] memory$read_address;
+    wire  [31:0] memory$read_data;
+    reg  in_array$d;
+    wire  in_array$q;
+    reg  in_array$clock;
+    reg  in_output$d;
+    wire  in_output$q;
+    reg  in_output$clock;
+    reg  [3:0] place_in_array$d;
+    wire  [3:0] place_in_array$q;
+    reg  place_in_array$clock;
+    reg  [3:0] place_in_output$d;
+    wire  [3:0] place_in_output$q;
+    reg  place_in_output$clock;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot2$queue$words$ring$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_stream_top_engines$slot2$queue$words$ring$in_array in_array(
+        .d(in_array$d),
+        .q(in_array$q),
+        .clock(in_array$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$ring$in_output in_output(
+        .d(in_output$d),
+        .q(in_output$q),
+        .clock(in_output$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$ring$place_in_array place_in_array(
+        .d(place_in_array$d),
+        .q(place_in_array$q),
+        .clock(place_in_array$clock)
+    );
+    incircle_stream_top_engines$slot2$queue$words$ring$place_in_output place_in_output(
+        .d(place_in_output$d),
+        .q(place_in_output$q),
+        .clock(place_in_output$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        in_array$clock = clock;
+        in_output$clock = clock;
+        place_in_array$clock = clock;
+        place_in_output$clock = clock;
+        in_array$d = in_array$q;
+        in_output$d = in_output$q;
+        place_in_array$d = place_in_array$q;
+        place_in_output$d = place_in_output$q;
+        memory$clock = clock;
+        memory$write_address = write_address;
+        memory$write_data = write_data;
+        memory$write_enable = write_enable;
+        memory$read_address = read_address;
+        in_array$d = fetches;
+        in_output$d = in_array$q;
+        place_in_array$d = place;
+        place_in_output$d = place_in_array$q;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
+        if (reset) begin
+            in_array$d = 1'b0;
+            in_output$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot2$queue$words$ring
+
+
+module incircle_stream_top_engines$slot2$queue$words$ring$in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$ring$in_array
+
+
+module incircle_stream_top_engines$slot2$queue$words$ring$in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$ring$in_output
+
+
+module incircle_stream_top_engines$slot2$queue$words$ring$memory(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    `ifdef INCIRCLE_ECP5
+    wire [13:0] write_pins = {{2{1'b0}}, write_address, 4'b0011};
+    wire [13:0] read_pins = {{2{1'b0}}, read_address, 4'b0011};
+    wire [17:0] nothing = 18'b0;
+    wire [35:0] all_taken = {{4{1'b0}}, write_data};
+    wire [35:0] all_given;
+    wire [31:0] word = all_given[31:0];
+    genvar slice;
+    generate for (slice = 0; slice < 2; slice = slice + 1) begin : slices
+    wire [17:0] taken = all_taken[slice*18 +: 18];
+    wire [17:0] given;
+    assign all_given[slice*18 +: 18] = given[17:0];
+    DP16KD #(
+        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
+        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
+        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
+    ) block_ram (
+    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
+        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
+        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
+        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
+        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
+        .DIA16(taken[16]), .DIA17(taken[17]),
+        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
+        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
+        .DOA16(), .DOA17(),
+    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
+        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
+        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
+        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
+        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
+        .DIB16(nothing[16]), .DIB17(nothing[17]),
+        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
+        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
+        .DOB16(given[16]), .DOB17(given[17])
+    );
+    end endgenerate
+    always @(*) read_data = word;
+    `else
+    (* ram_style = "block", no_rw_check *)
+    reg [31:0] memory [0:255];
+    reg [31:0] word;
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+        word <= memory[read_address];
+        read_data <= word;
+    end
+    `endif
+endmodule // incircle_stream_top_engines$slot2$queue$words$ring$memory
+
+
+module incircle_stream_top_engines$slot2$queue$words$ring$place_in_array(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -84472,7 +87632,66 @@ module incircle_stream_top_engines$slot2$queue$words$oldest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot2$queue$words$oldest
+endmodule // incircle_stream_top_engines$slot2$queue$words$ring$place_in_array
+
+
+module incircle_stream_top_engines$slot2$queue$words$ring$place_in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$ring$place_in_output
+
+
+module incircle_stream_top_engines$slot2$queue$words$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot2$queue$words$was_fetched
+
+
+module incircle_stream_top_engines$slot2$queue$words$window_is_full(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot2$queue$words$window_is_full
 
 
 module incircle_stream_top_engines$slot3(clock,reset,push,routed,has_room,is_free,offers,beat,takes,write);
@@ -84509,14 +87728,14 @@ module incircle_stream_top_engines$slot3(clock,reset,push,routed,has_room,is_fre
     wire  queue$command$valid;
     reg  queue$command$ready;
     wire  [31:0] queue$command$data;
-    reg  [4:0] owed$d;
-    wire  [4:0] owed$q;
+    reg  [8:0] owed$d;
+    wire  [8:0] owed$q;
     reg  owed$clock;
     
     // Local signals
     reg  begins;
     reg  ends;
-    reg  [4:0] one;
+    reg  [8:0] one;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core core(
@@ -84623,19 +87842,19 @@ module incircle_stream_top_engines$slot3$core(clock,reset,command$valid,command$
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -84655,8 +87874,8 @@ module incircle_stream_top_engines$slot3$core(clock,reset,command$valid,command$
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -84899,61 +88118,40 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
-    reg  [32:0] range_end$d;
-    wire  [32:0] range_end$q;
-    reg  range_end$clock;
-    reg  [14:0] range_bound$d;
-    wire  [14:0] range_bound$q;
-    reg  range_bound$clock;
-    reg  [31:0] triple$d;
-    wire  [31:0] triple$q;
-    reg  triple$clock;
-    reg  counts_none$d;
-    wire  counts_none$q;
-    reg  counts_none$clock;
+    reg  range$clock;
+    reg  [73:0] range$request;
+    reg  [14:0] range$records;
+    wire  range$is_outside;
+    wire  range$has_none;
+    wire  [16:0] range$whole_length;
+    wire  [16:0] range$packed_length;
     reg  [2:0] insert_status$d;
     wire  [2:0] insert_status$q;
     reg  insert_status$clock;
-    reg  is_outside$d;
-    wire  is_outside$q;
-    reg  is_outside$clock;
-    reg  [31:0] read_length$d;
-    wire  [31:0] read_length$q;
-    reg  read_length$clock;
-    reg  [31:0] packed_length$d;
-    wire  [31:0] packed_length$q;
-    reg  packed_length$clock;
-    reg  reads_none$d;
-    wire  reads_none$q;
-    reg  reads_none$clock;
     reg  [2:0] report_status$d;
     wire  [2:0] report_status$q;
     reg  report_status$clock;
     reg  [2:0] answer_status$d;
     wire  [2:0] answer_status$q;
     reg  answer_status$clock;
-    reg  [31:0] answer_length$d;
-    wire  [31:0] answer_length$q;
+    reg  [16:0] answer_length$d;
+    wire  [16:0] answer_length$q;
     reg  answer_length$clock;
     reg  has_none$d;
     wire  has_none$q;
     reg  has_none$clock;
     
     // Local signals
-    reg  [32:0] wide_first;
-    reg  [32:0] wide_count;
-    reg  [32:0] wide_bound;
-    reg  [31:0] double_count;
     reg  [31:0] status;
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
@@ -84961,61 +88159,27 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
     reg  [31:0] wide_engine;
     reg  [31:0] shifted_engine;
     reg  [31:0] job;
-    reg  [31:0] none;
-    reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
     
     // Sub module instances
-    incircle_stream_top_engines$slot3$core$answer_head$range_end range_end(
-        .d(range_end$d),
-        .q(range_end$q),
-        .clock(range_end$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$range_bound range_bound(
-        .d(range_bound$d),
-        .q(range_bound$q),
-        .clock(range_bound$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$triple triple(
-        .d(triple$d),
-        .q(triple$q),
-        .clock(triple$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$counts_none counts_none(
-        .d(counts_none$d),
-        .q(counts_none$q),
-        .clock(counts_none$clock)
+    incircle_stream_top_engines$slot3$core$answer_head$range range(
+        .clock(range$clock),
+        .request(range$request),
+        .records(range$records),
+        .is_outside(range$is_outside),
+        .has_none(range$has_none),
+        .whole_length(range$whole_length),
+        .packed_length(range$packed_length)
     );
     incircle_stream_top_engines$slot3$core$answer_head$insert_status insert_status(
         .d(insert_status$d),
         .q(insert_status$q),
         .clock(insert_status$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$is_outside is_outside(
-        .d(is_outside$d),
-        .q(is_outside$q),
-        .clock(is_outside$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$read_length read_length(
-        .d(read_length$d),
-        .q(read_length$q),
-        .clock(read_length$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$packed_length packed_length(
-        .d(packed_length$d),
-        .q(packed_length$q),
-        .clock(packed_length$clock)
-    );
-    incircle_stream_top_engines$slot3$core$answer_head$reads_none reads_none(
-        .d(reads_none$d),
-        .q(reads_none$q),
-        .clock(reads_none$clock)
     );
     incircle_stream_top_engines$slot3$core$answer_head$report_status report_status(
         .d(report_status$d),
@@ -85040,46 +88204,24 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
     
     // Update code
     always @(*) begin
-        range_end$clock = clock;
-        range_bound$clock = clock;
-        triple$clock = clock;
-        counts_none$clock = clock;
         insert_status$clock = clock;
-        range_end$d = range_end$q;
-        range_bound$d = range_bound$q;
-        triple$d = triple$q;
-        counts_none$d = counts_none$q;
-        insert_status$d = insert_status$q;
-        is_outside$clock = clock;
-        read_length$clock = clock;
-        packed_length$clock = clock;
-        reads_none$clock = clock;
         report_status$clock = clock;
-        is_outside$d = is_outside$q;
-        read_length$d = read_length$q;
-        packed_length$d = packed_length$q;
-        reads_none$d = reads_none$q;
-        report_status$d = report_status$q;
         answer_status$clock = clock;
         answer_length$clock = clock;
         has_none$clock = clock;
+        insert_status$d = insert_status$q;
+        report_status$d = report_status$q;
         answer_status$d = answer_status$q;
         answer_length$d = answer_length$q;
         has_none$d = has_none$q;
-        none = 32'h0;
-        one = 32'h1;
+        range$clock = clock;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
-        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
-        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        range_end$d = wide_first + wide_count;
-        range_bound$d = records;
-        double_count = request[(64'h28)+:(32)] << one;
-        triple$d = double_count + request[(64'h28)+:(32)];
-        counts_none$d = request[(64'h28)+:(32)] == none;
+        range$request = request;
+        range$records = records;
         insert_status$d = 32'h0;
         if (some_refused) begin
             insert_status$d = 32'h4;
@@ -85090,12 +88232,6 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         if (stuck) begin
             insert_status$d = 32'h6;
         end
-        wide_bound = ((range_bound$q) & 33'h1ffffffff);
-        is_outside$d = range_end$q > wide_bound;
-        read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
-        reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
         answer_length$d = 32'h0;
@@ -85119,9 +88255,9 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
                 end
             4:
                 begin
-                    answer_length$d = read_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$whole_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -85137,9 +88273,9 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
                 end
             7:
                 begin
-                    answer_length$d = packed_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$packed_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -85153,8 +88289,10 @@ module incircle_stream_top_engines$slot3$core$answer_head(clock,request,clearing
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
-        head[(64'h20)+:(32)] = answer_length$q;
+        head[(64'h20)+:(32)] = ((answer_length$q) & 32'hffffffff);
         head[(64'h40)+:(1)] = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
         shifted_status = status << status_shift;
@@ -85172,13 +88310,13 @@ endmodule // incircle_stream_top_engines$slot3$core$answer_head
 module incircle_stream_top_engines$slot3$core$answer_head$answer_length(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [16:0] d;
+    output reg  [16:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 17'h0;
     end
     
     always @(posedge clock) begin
@@ -85205,25 +88343,6 @@ module incircle_stream_top_engines$slot3$core$answer_head$answer_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$answer_head$answer_status
-
-
-module incircle_stream_top_engines$slot3$core$answer_head$counts_none(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$counts_none
 
 
 module incircle_stream_top_engines$slot3$core$answer_head$has_none(d,q,clock);
@@ -85264,45 +88383,174 @@ module incircle_stream_top_engines$slot3$core$answer_head$insert_status(d,q,cloc
 endmodule // incircle_stream_top_engines$slot3$core$answer_head$insert_status
 
 
-module incircle_stream_top_engines$slot3$core$answer_head$is_outside(d,q,clock);
+module incircle_stream_top_engines$slot3$core$answer_head$range(clock,request,records,is_outside,has_none,whole_length,packed_length);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
     input wire  clock;
+    input wire  [73:0] request;
+    input wire  [14:0] records;
+    output reg  is_outside;
+    output reg  has_none;
+    output reg  [16:0] whole_length;
+    output reg  [16:0] packed_length;
     
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
+    // Stub signals
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
+    reg  [14:0] bound$d;
+    wire  [14:0] bound$q;
+    reg  bound$clock;
+    reg  counts_none$d;
+    wire  counts_none$q;
+    reg  counts_none$clock;
+    reg  [16:0] triple$d;
+    wire  [16:0] triple$q;
+    reg  triple$clock;
+    reg  [16:0] number$d;
+    wire  [16:0] number$q;
+    reg  number$clock;
+    reg  [16:0] enlarged$d;
+    wire  [16:0] enlarged$q;
+    reg  enlarged$clock;
+    reg  outside$d;
+    wire  outside$q;
+    reg  outside$clock;
+    reg  reads_none$d;
+    wire  reads_none$q;
+    reg  reads_none$clock;
+    reg  [16:0] whole$d;
+    wire  [16:0] whole$q;
+    reg  whole$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
+    
+    // Local signals
+    reg  [32:0] wide_first;
+    reg  [32:0] wide_count;
+    reg  [32:0] wide_bound;
+    reg  [31:0] none;
+    reg  [14:0] few;
+    reg  [16:0] count;
+    reg  [16:0] more;
+    reg  [16:0] added;
+    reg  [16:0] one;
+    reg  [16:0] three;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot3$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$bound bound(
+        .d(bound$d),
+        .q(bound$q),
+        .clock(bound$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$counts_none counts_none(
+        .d(counts_none$d),
+        .q(counts_none$q),
+        .clock(counts_none$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$enlarged enlarged(
+        .d(enlarged$d),
+        .q(enlarged$q),
+        .clock(enlarged$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$outside outside(
+        .d(outside$d),
+        .q(outside$q),
+        .clock(outside$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$reads_none reads_none(
+        .d(reads_none$d),
+        .q(reads_none$q),
+        .clock(reads_none$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$whole whole(
+        .d(whole$d),
+        .q(whole$q),
+        .clock(whole$clock)
+    );
+    incircle_stream_top_engines$slot3$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        range_end$clock = clock;
+        bound$clock = clock;
+        counts_none$clock = clock;
+        triple$clock = clock;
+        number$clock = clock;
+        enlarged$clock = clock;
+        range_end$d = range_end$q;
+        bound$d = bound$q;
+        counts_none$d = counts_none$q;
+        triple$d = triple$q;
+        number$d = number$q;
+        enlarged$d = enlarged$q;
+        outside$clock = clock;
+        reads_none$clock = clock;
+        whole$clock = clock;
+        vertices$clock = clock;
+        outside$d = outside$q;
+        reads_none$d = reads_none$q;
+        whole$d = whole$q;
+        vertices$d = vertices$q;
+        none = 32'h0;
+        one = 32'h1;
+        three = 32'h3;
+        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
+        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
+        range_end$d = wide_first + wide_count;
+        bound$d = records;
+        counts_none$d = request[(64'h28)+:(32)] == none;
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        count = ((few) & 17'h1ffff);
+        triple$d = count + (count << one);
+        number$d = count;
+        added = 32'h1;
+        if (request[(64'h48)+:(1)]) begin
+            added = 32'h7;
+        end
+        enlarged$d = count + added;
+        wide_bound = ((bound$q) & 33'h1ffffffff);
+        outside$d = range_end$q > wide_bound;
+        reads_none$d = counts_none$q;
+        whole$d = triple$q;
+        more = enlarged$q >> one;
+        if (request[(64'h48)+:(1)]) begin
+            more = enlarged$q >> three;
+            if (~request[(64'h49)+:(1)]) begin
+                more = 32'h0;
+            end
+        end
+        vertices$d = number$q + more;
+        is_outside = outside$q;
+        has_none = reads_none$q;
+        whole_length = whole$q;
+        packed_length = vertices$q;
     end
     
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$is_outside
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range
 
 
-module incircle_stream_top_engines$slot3$core$answer_head$packed_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$packed_length
-
-
-module incircle_stream_top_engines$slot3$core$answer_head$range_bound(d,q,clock);
+module incircle_stream_top_engines$slot3$core$answer_head$range$bound(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -85318,48 +88566,10 @@ module incircle_stream_top_engines$slot3$core$answer_head$range_bound(d,q,clock)
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$range_bound
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$bound
 
 
-module incircle_stream_top_engines$slot3$core$answer_head$range_end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$range_end
-
-
-module incircle_stream_top_engines$slot3$core$answer_head$read_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$read_length
-
-
-module incircle_stream_top_engines$slot3$core$answer_head$reads_none(d,q,clock);
+module incircle_stream_top_engines$slot3$core$answer_head$range$counts_none(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -85375,7 +88585,159 @@ module incircle_stream_top_engines$slot3$core$answer_head$reads_none(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$reads_none
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$counts_none
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$enlarged(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$enlarged
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$number
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$outside(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$outside
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$range_end(d,q,clock);
+    
+    // Module arguments
+    input wire  [32:0] d;
+    output reg  [32:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 33'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$range_end
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$reads_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$reads_none
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$triple
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$vertices
+
+
+module incircle_stream_top_engines$slot3$core$answer_head$range$whole(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$answer_head$range$whole
 
 
 module incircle_stream_top_engines$slot3$core$answer_head$report_status(d,q,clock);
@@ -85395,25 +88757,6 @@ module incircle_stream_top_engines$slot3$core$answer_head$report_status(d,q,cloc
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$answer_head$report_status
-
-
-module incircle_stream_top_engines$slot3$core$answer_head$triple(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$answer_head$triple
 
 
 module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
@@ -85452,6 +88795,7 @@ module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core$answer_words$identity identity(
@@ -85481,6 +88825,7 @@ module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -85517,7 +88862,7 @@ module incircle_stream_top_engines$slot3$core$answer_words(clock,opcode,capacity
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -85619,7 +88964,7 @@ module incircle_stream_top_engines$slot3$core$command_port(clock,reset,capacity,
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -85636,8 +88981,8 @@ module incircle_stream_top_engines$slot3$core$command_port(clock,reset,capacity,
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -85783,6 +89128,8 @@ module incircle_stream_top_engines$slot3$core$command_port(clock,reset,capacity,
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -86356,13 +89703,13 @@ endmodule // incircle_stream_top_engines$slot3$core$command_port$gate
 module incircle_stream_top_engines$slot3$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -108676,8 +112023,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -108732,6 +112079,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -108790,6 +112139,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -108834,6 +112185,8 @@ module incircle_stream_top_engines$slot3$core$responder(clock,reset,answers,swee
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -108934,7 +112287,7 @@ module incircle_stream_top_engines$slot3$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_engines$slot3$core$responder$offered
 
 
-module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -108943,6 +112296,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -108956,6 +112311,12 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -108976,6 +112337,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -108999,6 +112362,16 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_engines$slot3$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -109031,6 +112404,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -109052,6 +112427,11 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -109059,7 +112439,6 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -109070,6 +112449,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = is_packed & has_short_ids;
+        rests_follow$d = is_packed & has_short_ids & has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -109090,6 +112471,8 @@ module incircle_stream_top_engines$slot3$core$responder$records(clock,reset,star
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -109126,6 +112509,25 @@ module incircle_stream_top_engines$slot3$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$head
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$is_second(d,q,clock);
@@ -109223,6 +112625,25 @@ module incircle_stream_top_engines$slot3$core$responder$records$record_id(d,q,cl
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$record_id
 
 
+module incircle_stream_top_engines$slot3$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$rests_follow
+
+
 module incircle_stream_top_engines$slot3$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -109242,7 +112663,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$some_are_left(d,
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$some_are_left
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -109250,6 +112671,8 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -109270,14 +112693,19 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
+    wire  [3:0] halves$rest;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
+    reg  [3:0] packer$rest;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -109315,7 +112743,9 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
-        .halves(halves$halves)
+        .has_short_ids(halves$has_short_ids),
+        .halves(halves$halves),
+        .rest(halves$rest)
     );
     incircle_stream_top_engines$slot3$core$responder$records$stream$packer packer(
         .clock(packer$clock),
@@ -109323,8 +112753,11 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
+        .rest(packer$rest),
         .valid(packer$valid),
         .beat(packer$beat)
     );
@@ -109361,9 +112794,13 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
+        packer$rest = halves$rest;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -109389,13 +112826,15 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream(clock,res
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves,rest);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
+    output reg  [3:0] rest;
     
     // Stub signals
     reg  [90:0] kept$d;
@@ -109416,6 +112855,13 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(cl
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [3:0] two_bits;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core$responder$records$stream$halves$kept kept(
@@ -109430,6 +112876,13 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(cl
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two_bits = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -109455,7 +112908,12 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$halves(cl
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+            end
         end
+        rest = ((vertex1[(32'ha)+:(2)]) & 4'hf) | (((vertex2[(32'ha)+:(2)]) & 4'hf) << two_bits);
     end
     
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$halves
@@ -109510,7 +112968,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$head(bits
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$head
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,rest,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -109518,17 +112976,20 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
+    input wire  [3:0] rest;
     output reg  valid;
     output reg  [65:0] beat;
     
     // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -109537,31 +112998,38 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [2:0] number$d;
-    wire  [2:0] number$q;
-    reg  number$clock;
     reg  [63:0] kept$d;
     wire  [63:0] kept$q;
     reg  kept$clock;
-    reg  many_are_kept$d;
-    wire  many_are_kept$q;
-    reg  many_are_kept$clock;
-    reg  [14:0] left$d;
-    wire  [14:0] left$q;
-    reg  left$clock;
-    reg  is_last$d;
-    wire  is_last$q;
-    reg  is_last$clock;
-    reg  all_came$d;
-    wire  all_came$q;
-    reg  all_came$clock;
+    reg  number$clock;
+    reg  number$reset;
+    reg  number$vertices_alone;
+    reg  number$has_short_ids;
+    reg  number$comes;
+    reg  number$is_last;
+    reg  number$brings_rests;
+    reg  number$all_came;
+    wire  [2:0] number$number;
+    wire  number$fills;
+    wire  number$moves;
+    wire  number$both;
+    wire  number$last;
+    reg  group$clock;
+    reg  group$starts;
+    reg  [14:0] group$count;
+    reg  group$comes;
+    reg  [3:0] group$rest;
+    wire  group$is_last;
+    wire  group$ends_group;
+    wire  group$all_came;
+    wire  [31:0] group$rests;
     
     // Local signals
-    reg  takes;
+    reg  brings_rests;
+    reg  [15:0] third;
+    reg  [15:0] fourth;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
-    reg  [14:0] one;
-    reg  [14:0] two;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is_there is_there(
@@ -109574,170 +113042,133 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer(cl
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number number(
-        .d(number$d),
-        .q(number$q),
-        .clock(number$clock)
-    );
     incircle_stream_top_engines$slot3$core$responder$records$stream$packer$kept kept(
         .d(kept$d),
         .q(kept$q),
         .clock(kept$clock)
     );
-    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$many_are_kept many_are_kept(
-        .d(many_are_kept$d),
-        .q(many_are_kept$q),
-        .clock(many_are_kept$clock)
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number number(
+        .clock(number$clock),
+        .reset(number$reset),
+        .vertices_alone(number$vertices_alone),
+        .has_short_ids(number$has_short_ids),
+        .comes(number$comes),
+        .is_last(number$is_last),
+        .brings_rests(number$brings_rests),
+        .all_came(number$all_came),
+        .number(number$number),
+        .fills(number$fills),
+        .moves(number$moves),
+        .both(number$both),
+        .last(number$last)
     );
-    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
-    );
-    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is_last is_last(
-        .d(is_last$d),
-        .q(is_last$q),
-        .clock(is_last$clock)
-    );
-    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$all_came all_came(
-        .d(all_came$d),
-        .q(all_came$q),
-        .clock(all_came$clock)
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group group(
+        .clock(group$clock),
+        .starts(group$starts),
+        .count(group$count),
+        .comes(group$comes),
+        .rest(group$rest),
+        .is_last(group$is_last),
+        .ends_group(group$ends_group),
+        .all_came(group$all_came),
+        .rests(group$rests)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        number$clock = clock;
         kept$clock = clock;
-        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        number$d = number$q;
         kept$d = kept$q;
-        many_are_kept$d = many_are_kept$q;
-        left$clock = clock;
-        is_last$clock = clock;
-        all_came$clock = clock;
-        left$d = left$q;
-        is_last$d = is_last$q;
-        all_came$d = all_came$q;
-        one = 32'h1;
-        two = 32'h2;
+        number$clock = clock;
+        group$clock = clock;
         valid = is_there$q;
         beat = filled$q;
+        group$starts = starts;
+        group$count = count;
+        group$comes = comes;
+        group$rest = rest;
+        brings_rests = has_rests & group$ends_group;
+        number$reset = reset;
+        number$vertices_alone = vertices_alone;
+        number$has_short_ids = has_short_ids;
+        number$comes = comes;
+        number$is_last = group$is_last;
+        number$brings_rests = brings_rests;
+        number$all_came = group$all_came;
+        is_there$d = number$fills;
+        filled$d[(64'h40)+:(1)] = number$both;
+        filled$d[(64'h41)+:(1)] = number$last;
+        third = halves[(64'h20)+:(16)];
+        fourth = halves[(64'h30)+:(16)];
+        if (has_short_ids) begin
+            third = group$rests[(32'h0)+:(16)];
+            fourth = group$rests[(32'h10)+:(16)];
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
         kept$d[(64'h30)+:(16)] = 32'h0;
-        many_are_kept$d = 1'b0;
-        takes = comes;
-        is_there$d = comes;
-        filled$d[(64'h40)+:(1)] = 1'b1;
-        filled$d[(64'h41)+:(1)] = 1'b0;
-        case (number$q)
-            KeptHalves$Zero:
+        case (number$number)
+            KeptNumber$Zero:
                 begin
                     sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    sent[(64'h20)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = fourth;
                     kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
-                    number$d = KeptHalves$Two;
                     if (vertices_alone) begin
-                        is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Three;
+                        if (~has_short_ids) begin
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        end
                     end
                 end
-            KeptHalves$One:
+            KeptNumber$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
-                    filled$d[(64'h41)+:(1)] = is_last$q;
-                    number$d = KeptHalves$Zero;
                 end
-            KeptHalves$Two:
+            KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$One;
+                    kept$d[(64'h0)+:(16)] = third;
+                    if (has_short_ids | (~vertices_alone)) begin
+                        kept$d[(64'h10)+:(16)] = fourth;
+                    end
                     if (~vertices_alone) begin
-                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
                         kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Rest;
                     end
                 end
-            KeptHalves$Three:
+            KeptNumber$Three:
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
-                    takes = 1'b1;
-                    is_there$d = 1'b1;
-                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
-                    filled$d[(64'h41)+:(1)] = all_came$q;
-                    number$d = KeptHalves$Zero;
                 end
         endcase
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
-        if (comes) begin
-            left$d = left$q - one;
-            is_last$d = left$q == two;
-            all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
-                number$d = KeptHalves$Rest;
-            end
-        end
-        if (~takes) begin
-            number$d = number$q;
+        if (~number$moves) begin
             kept$d = kept$q;
-        end
-        if (starts) begin
-            left$d = count;
-            is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            number$d = KeptHalves$Zero;
         end
     end
     
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer
-
-
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$all_came(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$all_came
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$filled(d,q,clock);
@@ -109759,7 +113190,157 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$fi
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$filled
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is_last(d,q,clock);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group(clock,starts,count,comes,rest,is_last,ends_group,all_came,rests);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [3:0] rest;
+    output reg  is_last;
+    output reg  ends_group;
+    output reg  all_came;
+    output reg  [31:0] rests;
+    
+    // Stub signals
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  none_is_left$d;
+    wire  none_is_left$q;
+    reg  none_is_left$clock;
+    reg  [2:0] place$d;
+    wire  [2:0] place$q;
+    reg  place$clock;
+    reg  [31:0] earlier$d;
+    wire  [31:0] earlier$q;
+    reg  earlier$clock;
+    
+    // Local signals
+    reg  [31:0] together;
+    reg  ends;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [2:0] one_place;
+    reg  [2:0] last_place;
+    reg  [31:0] rest_bits;
+    reg  [31:0] rest_shift;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$none_is_left none_is_left(
+        .d(none_is_left$d),
+        .q(none_is_left$q),
+        .clock(none_is_left$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$earlier earlier(
+        .d(earlier$d),
+        .q(earlier$q),
+        .clock(earlier$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        left$clock = clock;
+        one_is_left$clock = clock;
+        none_is_left$clock = clock;
+        place$clock = clock;
+        earlier$clock = clock;
+        left$d = left$q;
+        one_is_left$d = one_is_left$q;
+        none_is_left$d = none_is_left$q;
+        place$d = place$q;
+        earlier$d = earlier$q;
+        one = 32'h1;
+        two = 32'h2;
+        one_place = 32'h1;
+        last_place = 32'h7;
+        rest_bits = 32'h4;
+        rest_shift = 32'h1c;
+        is_last = one_is_left$q;
+        all_came = none_is_left$q;
+        ends = one_is_left$q | (place$q == last_place);
+        ends_group = ends;
+        together = (earlier$q >> rest_bits) | (((rest) & 32'hffffffff) << rest_shift);
+        rests = together;
+        if (comes) begin
+            left$d = left$q - one;
+            one_is_left$d = left$q == two;
+            none_is_left$d = one_is_left$q;
+            place$d = place$q + one_place;
+            earlier$d = together;
+            if (ends) begin
+                earlier$d = 32'h0;
+            end
+        end
+        if (starts) begin
+            left$d = count;
+            one_is_left$d = count == one;
+            place$d = 32'h0;
+            earlier$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$earlier(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$earlier
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$left
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$none_is_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -109775,7 +113356,45 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is_last
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$none_is_left
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$one_is_left
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$group$place
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$is_there(d,q,clock);
@@ -109816,26 +113435,149 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$ke
 endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$kept
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$left(d,q,clock);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number(clock,reset,vertices_alone,has_short_ids,comes,is_last,brings_rests,all_came,number,fills,moves,both,last);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
     input wire  clock;
+    input wire  reset;
+    input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  comes;
+    input wire  is_last;
+    input wire  brings_rests;
+    input wire  all_came;
+    output reg  [2:0] number;
+    output reg  fills;
+    output reg  moves;
+    output reg  both;
+    output reg  last;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
+    
+    // Stub signals
+    reg  [2:0] kept$d;
+    wire  [2:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
+    
+    // Local signals
+    reg  [2:0] leaves;
+    reg  leaves_none;
+    reg  is_rest;
+    reg  takes;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        many_are_kept$clock = clock;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        number = kept$q;
+        is_rest = kept$q == KeptNumber$Rest;
+        takes = comes | is_rest;
+        moves = takes;
+        fills = takes;
+        leaves = KeptNumber$Zero;
+        case (kept$q)
+            KeptNumber$Zero:
+                begin
+                    if (~brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (vertices_alone) begin
+                        fills = comes & brings_rests;
+                        if (~has_short_ids) begin
+                            leaves = KeptNumber$Three;
+                        end
+                    end
+                end
+            KeptNumber$Two:
+                begin
+                    if (~has_short_ids) begin
+                        leaves = KeptNumber$One;
+                    end
+                    if (brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (~vertices_alone) begin
+                        leaves = KeptNumber$Rest;
+                    end
+                end
+            KeptNumber$Three:
+                begin
+                    leaves = KeptNumber$Two;
+                end
+            default:
+                begin
+                end
+        endcase
+        leaves_none = leaves == KeptNumber$Zero;
+        both = many_are_kept$q | (~is_rest);
+        last = is_last & leaves_none;
+        if (is_rest) begin
+            last = all_came;
+        end
+        if (takes) begin
+            many_are_kept$d = (leaves == KeptNumber$Three) | (leaves == KeptNumber$Rest);
+            kept$d = leaves;
+            if (is_last & (~leaves_none)) begin
+                kept$d = KeptNumber$Rest;
+            end
+        end
+        if (reset) begin
+            kept$d = KeptNumber$Zero;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$left
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number$kept
 
 
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$many_are_kept(d,q,clock);
+module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number$many_are_kept(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -109851,33 +113593,7 @@ module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$ma
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$many_are_kept
-
-
-module incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number
+endmodule // incircle_stream_top_engines$slot3$core$responder$records$stream$packer$number$many_are_kept
 
 
 module incircle_stream_top_engines$slot3$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -110211,8 +113927,8 @@ module incircle_stream_top_engines$slot3$core$responder$words(clock,reset,prepar
     reg  [6:0] following$d;
     wire  [6:0] following$q;
     reg  following$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
+    reg  [7:0] left$d;
+    wire  [7:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
@@ -110227,8 +113943,9 @@ module incircle_stream_top_engines$slot3$core$responder$words(clock,reset,prepar
     // Local signals
     reg  is_choosing;
     reg  [31:0] no_word;
-    reg  [31:0] one;
-    reg  [31:0] two;
+    reg  [7:0] words;
+    reg  [7:0] one;
+    reg  [7:0] two;
     reg  [6:0] one_word;
     
     // Sub module instances
@@ -110281,6 +113998,7 @@ module incircle_stream_top_engines$slot3$core$responder$words(clock,reset,prepar
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
+        words = length[(32'h0)+:(8)];
         index = loaded$q;
         index_ahead = following$q;
         valid = is_chosen$q;
@@ -110306,8 +114024,8 @@ module incircle_stream_top_engines$slot3$core$responder$words(clock,reset,prepar
         end
         if (starts) begin
             loaded$d = 32'h0;
-            left$d = length;
-            is_last$d = length == one;
+            left$d = words;
+            is_last$d = words == one;
         end
         if (reset) begin
             waited$d = 1'b0;
@@ -110378,13 +114096,13 @@ endmodule // incircle_stream_top_engines$slot3$core$responder$words$is_last
 module incircle_stream_top_engines$slot3$core$responder$words$left(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -110435,13 +114153,13 @@ endmodule // incircle_stream_top_engines$slot3$core$responder$words$waited
 module incircle_stream_top_engines$slot3$owed(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -110464,8 +114182,8 @@ module incircle_stream_top_engines$slot3$queue(clock,reset,push,word,has_room,co
     output reg  [31:0] command$data;
     
     // Stub signals
-    reg  [4:0] waiting$d;
-    wire  [4:0] waiting$q;
+    reg  [8:0] waiting$d;
+    wire  [8:0] waiting$q;
     reg  waiting$clock;
     reg  came$d;
     wire  came$q;
@@ -110483,8 +114201,8 @@ module incircle_stream_top_engines$slot3$queue(clock,reset,push,word,has_room,co
     
     // Local signals
     reg  takes;
-    reg  [4:0] one;
-    reg  [4:0] all;
+    reg  [8:0] one;
+    reg  [8:0] all;
     
     // Sub module instances
     incircle_stream_top_engines$slot3$queue$waiting waiting(
@@ -110522,7 +114240,7 @@ module incircle_stream_top_engines$slot3$queue(clock,reset,push,word,has_room,co
         newest$d = newest$q;
         words$clock = clock;
         one = 32'h1;
-        all = 32'h10;
+        all = 32'h100;
         has_room = waiting$q != all;
         came$d = push;
         newest$d = word;
@@ -110589,13 +114307,13 @@ endmodule // incircle_stream_top_engines$slot3$queue$newest
 module incircle_stream_top_engines$slot3$queue$waiting(d,q,clock);
     
     // Module arguments
-    input wire  [4:0] d;
-    output reg  [4:0] q;
+    input wire  [8:0] d;
+    output reg  [8:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 5'h0;
+       q = 9'h0;
     end
     
     always @(posedge clock) begin
@@ -110617,103 +114335,323 @@ module incircle_stream_top_engines$slot3$queue$words(clock,reset,push,push_data,
     output reg  [31:0] data;
     
     // Constant declarations
-    localparam  one = 4'h1;
-    localparam  nothing = 4'h0;
+    localparam  one = 8'h1;
+    localparam  one_place = 4'h1;
+    localparam  nothing = 8'h0;
+    localparam  first_place = 4'h0;
+    localparam  from_user = 1'b0;
+    localparam  from_ring = 1'b1;
     localparam  kept_bits = 32'hffffffff;
     
     // Stub signals
-    reg  entries$clock;
-    reg  [3:0] entries$write_address;
-    reg  [31:0] entries$write_data;
-    reg  entries$write_enable;
-    reg  [3:0] entries$read_address;
-    wire  [31:0] entries$read_data;
-    reg  holds_entries$d;
-    wire  holds_entries$q;
-    reg  holds_entries$clock;
-    reg  [3:0] newest$d;
-    wire  [3:0] newest$q;
+    reg  ring$clock;
+    reg  ring$reset;
+    reg  [7:0] ring$write_address;
+    reg  [31:0] ring$write_data;
+    reg  ring$write_enable;
+    reg  [7:0] ring$read_address;
+    reg  ring$fetches;
+    reg  [3:0] ring$place;
+    wire  ring$fetched;
+    wire  [3:0] ring$fetched_place;
+    wire  [31:0] ring$fetched_data;
+    reg  new_bank$clock;
+    reg  [3:0] new_bank$write_address;
+    reg  [31:0] new_bank$write_data;
+    reg  new_bank$write_enable;
+    reg  [3:0] new_bank$read_address;
+    wire  [31:0] new_bank$read_data;
+    reg  fetched_bank$clock;
+    reg  [3:0] fetched_bank$write_address;
+    reg  [31:0] fetched_bank$write_data;
+    reg  fetched_bank$write_enable;
+    reg  [3:0] fetched_bank$read_address;
+    wire  [31:0] fetched_bank$read_data;
+    reg  was_fetched$clock;
+    reg  [3:0] was_fetched$write_address;
+    reg  was_fetched$write_data;
+    reg  was_fetched$write_enable;
+    reg  [3:0] was_fetched$read_address;
+    wire  was_fetched$read_data;
+    reg  holds_first$d;
+    wire  holds_first$q;
+    reg  holds_first$clock;
+    reg  passes$d;
+    wire  passes$q;
+    reg  passes$clock;
+    reg  [31:0] first$d;
+    wire  [31:0] first$q;
+    reg  first$clock;
+    reg  holds_more$d;
+    wire  holds_more$q;
+    reg  holds_more$clock;
+    reg  window_is_full$d;
+    wire  window_is_full$q;
+    reg  window_is_full$clock;
+    reg  holds_spilled$d;
+    wire  holds_spilled$q;
+    reg  holds_spilled$clock;
+    reg  [7:0] newest$d;
+    wire  [7:0] newest$q;
     reg  newest$clock;
-    reg  [3:0] oldest$d;
-    wire  [3:0] oldest$q;
-    reg  oldest$clock;
+    reg  [7:0] fetched$d;
+    wire  [7:0] fetched$q;
+    reg  fetched$clock;
+    reg  [3:0] after_first$d;
+    wire  [3:0] after_first$q;
+    reg  after_first$clock;
     
     // Local signals
-    reg  passes;
-    reg  stores;
-    reg  [3:0] after_newest;
-    reg  [3:0] after_oldest;
+    reg  [31:0] kept_data;
+    reg  joins;
+    reg  moves_up;
+    reg  spills;
+    reg  enters;
+    reg  fetches;
+    reg  advances;
+    reg  [7:0] after_newest;
+    reg  [7:0] after_fetched;
+    reg  [3:0] after_moved;
+    reg  [3:0] place;
+    reg  [3:0] after_place;
     
     // Sub module instances
-    incircle_stream_top_engines$slot3$queue$words$entries entries(
-        .clock(entries$clock),
-        .write_address(entries$write_address),
-        .write_data(entries$write_data),
-        .write_enable(entries$write_enable),
-        .read_address(entries$read_address),
-        .read_data(entries$read_data)
+    incircle_stream_top_engines$slot3$queue$words$ring ring(
+        .clock(ring$clock),
+        .reset(ring$reset),
+        .write_address(ring$write_address),
+        .write_data(ring$write_data),
+        .write_enable(ring$write_enable),
+        .read_address(ring$read_address),
+        .fetches(ring$fetches),
+        .place(ring$place),
+        .fetched(ring$fetched),
+        .fetched_place(ring$fetched_place),
+        .fetched_data(ring$fetched_data)
     );
-    incircle_stream_top_engines$slot3$queue$words$holds_entries holds_entries(
-        .d(holds_entries$d),
-        .q(holds_entries$q),
-        .clock(holds_entries$clock)
+    incircle_stream_top_engines$slot3$queue$words$new_bank new_bank(
+        .clock(new_bank$clock),
+        .write_address(new_bank$write_address),
+        .write_data(new_bank$write_data),
+        .write_enable(new_bank$write_enable),
+        .read_address(new_bank$read_address),
+        .read_data(new_bank$read_data)
+    );
+    incircle_stream_top_engines$slot3$queue$words$fetched_bank fetched_bank(
+        .clock(fetched_bank$clock),
+        .write_address(fetched_bank$write_address),
+        .write_data(fetched_bank$write_data),
+        .write_enable(fetched_bank$write_enable),
+        .read_address(fetched_bank$read_address),
+        .read_data(fetched_bank$read_data)
+    );
+    incircle_stream_top_engines$slot3$queue$words$was_fetched was_fetched(
+        .clock(was_fetched$clock),
+        .write_address(was_fetched$write_address),
+        .write_data(was_fetched$write_data),
+        .write_enable(was_fetched$write_enable),
+        .read_address(was_fetched$read_address),
+        .read_data(was_fetched$read_data)
+    );
+    incircle_stream_top_engines$slot3$queue$words$holds_first holds_first(
+        .d(holds_first$d),
+        .q(holds_first$q),
+        .clock(holds_first$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$passes passes(
+        .d(passes$d),
+        .q(passes$q),
+        .clock(passes$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$first first(
+        .d(first$d),
+        .q(first$q),
+        .clock(first$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$holds_more holds_more(
+        .d(holds_more$d),
+        .q(holds_more$q),
+        .clock(holds_more$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$window_is_full window_is_full(
+        .d(window_is_full$d),
+        .q(window_is_full$q),
+        .clock(window_is_full$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$holds_spilled holds_spilled(
+        .d(holds_spilled$d),
+        .q(holds_spilled$q),
+        .clock(holds_spilled$clock)
     );
     incircle_stream_top_engines$slot3$queue$words$newest newest(
         .d(newest$d),
         .q(newest$q),
         .clock(newest$clock)
     );
-    incircle_stream_top_engines$slot3$queue$words$oldest oldest(
-        .d(oldest$d),
-        .q(oldest$q),
-        .clock(oldest$clock)
+    incircle_stream_top_engines$slot3$queue$words$fetched fetched(
+        .d(fetched$d),
+        .q(fetched$q),
+        .clock(fetched$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$after_first after_first(
+        .d(after_first$d),
+        .q(after_first$q),
+        .clock(after_first$clock)
     );
     
     // Update code
     always @(*) begin
-        holds_entries$clock = clock;
+        holds_first$clock = clock;
+        passes$clock = clock;
+        first$clock = clock;
+        holds_more$clock = clock;
+        window_is_full$clock = clock;
+        holds_spilled$clock = clock;
+        holds_first$d = holds_first$q;
+        passes$d = passes$q;
+        first$d = first$q;
+        holds_more$d = holds_more$q;
+        window_is_full$d = window_is_full$q;
+        holds_spilled$d = holds_spilled$q;
         newest$clock = clock;
-        oldest$clock = clock;
-        holds_entries$d = holds_entries$q;
+        fetched$clock = clock;
+        after_first$clock = clock;
         newest$d = newest$q;
-        oldest$d = oldest$q;
-        entries$clock = clock;
+        fetched$d = fetched$q;
+        after_first$d = after_first$q;
+        ring$clock = clock;
+        new_bank$clock = clock;
+        fetched_bank$clock = clock;
+        was_fetched$clock = clock;
         after_newest = newest$q + one;
-        after_oldest = oldest$q + one;
-        entries$read_address = oldest$q;
-        valid = holds_entries$q | push;
-        if (holds_entries$q) begin
-            data = entries$read_data;
+        after_fetched = fetched$q + one;
+        after_moved = after_first$q + one_place;
+        place = fetched$q[(32'h0)+:(4)];
+        after_place = place + one_place;
+        kept_data = push_data & kept_bits;
+        valid = holds_first$q | push;
+        data = first$q;
+        if (passes$q) begin
+            data = kept_data;
         end
-        else begin
-            data = push_data & kept_bits;
-        end
-        passes = (~holds_entries$q) & pop;
-        stores = push & (~passes);
-        entries$write_address = newest$q;
-        entries$write_data = push_data;
-        entries$write_enable = stores;
-        if (stores) begin
-            newest$d = after_newest;
-            holds_entries$d = 1'b1;
-        end
-        if (pop & holds_entries$q) begin
-            oldest$d = after_oldest;
-            if (~stores) begin
-                holds_entries$d = after_oldest != newest$q;
+        new_bank$read_address = after_first$q;
+        fetched_bank$read_address = after_first$q;
+        was_fetched$read_address = after_first$q;
+        if (pop | (~holds_first$q)) begin
+            first$d = kept_data;
+            if (holds_more$q) begin
+                first$d = new_bank$read_data;
+                if (was_fetched$read_data == from_ring) begin
+                    first$d = fetched_bank$read_data;
+                end
             end
         end
-        if (reset) begin
-            holds_entries$d = 1'b0;
-            newest$d = nothing;
-            oldest$d = nothing;
+        holds_first$d = valid;
+        if (pop) begin
+            holds_first$d = holds_first$q & (holds_more$q | push);
         end
+        joins = push & holds_first$q;
+        spills = joins & (holds_spilled$q | window_is_full$q);
+        enters = joins & (~spills);
+        fetches = holds_spilled$q & (~window_is_full$q);
+        advances = (~window_is_full$q) & (holds_spilled$q | joins);
+        moves_up = pop & holds_first$q & (holds_more$q | push);
+        ring$write_address = newest$q;
+        ring$write_data = push_data;
+        ring$write_enable = spills;
+        ring$read_address = fetched$q;
+        ring$reset = reset;
+        ring$fetches = fetches;
+        ring$place = place;
+        fetched_bank$write_address = ring$fetched_place;
+        fetched_bank$write_data = ring$fetched_data;
+        fetched_bank$write_enable = ring$fetched;
+        new_bank$write_address = place;
+        new_bank$write_data = push_data;
+        new_bank$write_enable = enters;
+        was_fetched$write_address = place;
+        was_fetched$write_data = from_user;
+        if (fetches) begin
+            was_fetched$write_data = from_ring;
+        end
+        was_fetched$write_enable = advances;
+        if (joins) begin
+            newest$d = after_newest;
+        end
+        if (advances) begin
+            fetched$d = after_fetched;
+        end
+        if (moves_up) begin
+            after_first$d = after_moved;
+        end
+        if (fetches) begin
+            holds_spilled$d = after_fetched != newest$q;
+        end
+        if (spills) begin
+            holds_spilled$d = 1'b1;
+        end
+        if (advances & (~moves_up)) begin
+            holds_more$d = 1'b1;
+            window_is_full$d = after_place == after_first$q;
+        end
+        if (moves_up & (~advances)) begin
+            holds_more$d = after_moved != place;
+            window_is_full$d = 1'b0;
+        end
+        if (reset) begin
+            holds_first$d = 1'b0;
+            holds_more$d = 1'b0;
+            window_is_full$d = 1'b0;
+            holds_spilled$d = 1'b0;
+            newest$d = nothing;
+            fetched$d = nothing;
+            after_first$d = first_place;
+        end
+        passes$d = ~holds_first$d;
     end
     
 endmodule // incircle_stream_top_engines$slot3$queue$words
 
 
-module incircle_stream_top_engines$slot3$queue$words$entries(clock,write_address,write_data,write_enable,read_address,read_data);
+module incircle_stream_top_engines$slot3$queue$words$after_first(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$after_first
+
+
+module incircle_stream_top_engines$slot3$queue$words$fetched(d,q,clock);
+    
+    // Module arguments
+    input wire  [7:0] d;
+    output reg  [7:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 8'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$fetched
+
+
+module incircle_stream_top_engines$slot3$queue$words$fetched_bank(clock,write_address,write_data,write_enable,read_address,read_data);
     
     // Module arguments
     input wire  clock;
@@ -110731,10 +114669,29 @@ module incircle_stream_top_engines$slot3$queue$words$entries(clock,write_address
         if (write_enable) memory[write_address] <= write_data;
     end
     always @(*) read_data = word;
-endmodule // incircle_stream_top_engines$slot3$queue$words$entries
+endmodule // incircle_stream_top_engines$slot3$queue$words$fetched_bank
 
 
-module incircle_stream_top_engines$slot3$queue$words$holds_entries(d,q,clock);
+module incircle_stream_top_engines$slot3$queue$words$first(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$first
+
+
+module incircle_stream_top_engines$slot3$queue$words$holds_first(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -110750,19 +114707,78 @@ module incircle_stream_top_engines$slot3$queue$words$holds_entries(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$queue$words$holds_entries
+endmodule // incircle_stream_top_engines$slot3$queue$words$holds_first
+
+
+module incircle_stream_top_engines$slot3$queue$words$holds_more(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$holds_more
+
+
+module incircle_stream_top_engines$slot3$queue$words$holds_spilled(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$holds_spilled
+
+
+module incircle_stream_top_engines$slot3$queue$words$new_bank(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [31:0] memory [0:15];
+    wire [31:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot3$queue$words$new_bank
 
 
 module incircle_stream_top_engines$slot3$queue$words$newest(d,q,clock);
     
     // Module arguments
-    input wire  [3:0] d;
-    output reg  [3:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 4'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -110772,7 +114788,224 @@ module incircle_stream_top_engines$slot3$queue$words$newest(d,q,clock);
 endmodule // incircle_stream_top_engines$slot3$queue$words$newest
 
 
-module incircle_stream_top_engines$slot3$queue$words$oldest(d,q,clock);
+module incircle_stream_top_engines$slot3$queue$words$passes(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$passes
+
+
+module incircle_stream_top_engines$slot3$queue$words$ring(clock,reset,write_address,write_data,write_enable,read_address,fetches,place,fetched,fetched_place,fetched_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  reset;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    input wire  fetches;
+    input wire  [3:0] place;
+    output reg  fetched;
+    output reg  [3:0] fetched_place;
+    output reg  [31:0] fetched_data;
+    
+    // Stub signals
+    reg  memory$clock;
+    reg  [7:0] memory$write_address;
+    reg  [31:0] memory$write_data;
+    reg  memory$write_enable;
+    reg  [7:0] memory$read_address;
+    wire  [31:0] memory$read_data;
+    reg  in_array$d;
+    wire  in_array$q;
+    reg  in_array$clock;
+    reg  in_output$d;
+    wire  in_output$q;
+    reg  in_output$clock;
+    reg  [3:0] place_in_array$d;
+    wire  [3:0] place_in_array$q;
+    reg  place_in_array$clock;
+    reg  [3:0] place_in_output$d;
+    wire  [3:0] place_in_output$q;
+    reg  place_in_output$clock;
+    
+    // Sub module instances
+    incircle_stream_top_engines$slot3$queue$words$ring$memory memory(
+        .clock(memory$clock),
+        .write_address(memory$write_address),
+        .write_data(memory$write_data),
+        .write_enable(memory$write_enable),
+        .read_address(memory$read_address),
+        .read_data(memory$read_data)
+    );
+    incircle_stream_top_engines$slot3$queue$words$ring$in_array in_array(
+        .d(in_array$d),
+        .q(in_array$q),
+        .clock(in_array$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$ring$in_output in_output(
+        .d(in_output$d),
+        .q(in_output$q),
+        .clock(in_output$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$ring$place_in_array place_in_array(
+        .d(place_in_array$d),
+        .q(place_in_array$q),
+        .clock(place_in_array$clock)
+    );
+    incircle_stream_top_engines$slot3$queue$words$ring$place_in_output place_in_output(
+        .d(place_in_output$d),
+        .q(place_in_output$q),
+        .clock(place_in_output$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        in_array$clock = clock;
+        in_output$clock = clock;
+        place_in_array$clock = clock;
+        place_in_output$clock = clock;
+        in_array$d = in_array$q;
+        in_output$d = in_output$q;
+        place_in_array$d = place_in_array$q;
+        place_in_output$d = place_in_output$q;
+        memory$clock = clock;
+        memory$write_address = write_address;
+        memory$write_data = write_data;
+        memory$write_enable = write_enable;
+        memory$read_address = read_address;
+        in_array$d = fetches;
+        in_output$d = in_array$q;
+        place_in_array$d = place;
+        place_in_output$d = place_in_array$q;
+        fetched = in_output$q;
+        fetched_place = place_in_output$q;
+        fetched_data = memory$read_data;
+        if (reset) begin
+            in_array$d = 1'b0;
+            in_output$d = 1'b0;
+        end
+    end
+    
+endmodule // incircle_stream_top_engines$slot3$queue$words$ring
+
+
+module incircle_stream_top_engines$slot3$queue$words$ring$in_array(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$ring$in_array
+
+
+module incircle_stream_top_engines$slot3$queue$words$ring$in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$ring$in_output
+
+
+module incircle_stream_top_engines$slot3$queue$words$ring$memory(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [7:0] write_address;
+    input wire  [31:0] write_data;
+    input wire  write_enable;
+    input wire  [7:0] read_address;
+    output reg  [31:0] read_data;
+    
+    // Update code (custom)
+    `ifdef INCIRCLE_ECP5
+    wire [13:0] write_pins = {{2{1'b0}}, write_address, 4'b0011};
+    wire [13:0] read_pins = {{2{1'b0}}, read_address, 4'b0011};
+    wire [17:0] nothing = 18'b0;
+    wire [35:0] all_taken = {{4{1'b0}}, write_data};
+    wire [35:0] all_given;
+    wire [31:0] word = all_given[31:0];
+    genvar slice;
+    generate for (slice = 0; slice < 2; slice = slice + 1) begin : slices
+    wire [17:0] taken = all_taken[slice*18 +: 18];
+    wire [17:0] given;
+    assign all_given[slice*18 +: 18] = given[17:0];
+    DP16KD #(
+        .DATA_WIDTH_A(18), .DATA_WIDTH_B(18), .REGMODE_A("OUTREG"), .REGMODE_B("OUTREG"),
+        .WRITEMODE_A("NORMAL"), .WRITEMODE_B("NORMAL"), .RESETMODE("SYNC"), .GSR("AUTO"),
+        .CSDECODE_A("0b000"), .CSDECODE_B("0b000")
+    ) block_ram (
+    .CLKA(clock), .CEA(1'b1), .OCEA(1'b1), .WEA(write_enable), .RSTA(1'b0),
+        .CSA0(1'b0), .CSA1(1'b0), .CSA2(1'b0),
+        .ADA0(write_pins[0]), .ADA1(write_pins[1]), .ADA2(write_pins[2]), .ADA3(write_pins[3]), .ADA4(write_pins[4]), .ADA5(write_pins[5]), .ADA6(write_pins[6]), .ADA7(write_pins[7]),
+        .ADA8(write_pins[8]), .ADA9(write_pins[9]), .ADA10(write_pins[10]), .ADA11(write_pins[11]), .ADA12(write_pins[12]), .ADA13(write_pins[13]),
+        .DIA0(taken[0]), .DIA1(taken[1]), .DIA2(taken[2]), .DIA3(taken[3]), .DIA4(taken[4]), .DIA5(taken[5]), .DIA6(taken[6]), .DIA7(taken[7]),
+        .DIA8(taken[8]), .DIA9(taken[9]), .DIA10(taken[10]), .DIA11(taken[11]), .DIA12(taken[12]), .DIA13(taken[13]), .DIA14(taken[14]), .DIA15(taken[15]),
+        .DIA16(taken[16]), .DIA17(taken[17]),
+        .DOA0(), .DOA1(), .DOA2(), .DOA3(), .DOA4(), .DOA5(), .DOA6(), .DOA7(),
+        .DOA8(), .DOA9(), .DOA10(), .DOA11(), .DOA12(), .DOA13(), .DOA14(), .DOA15(),
+        .DOA16(), .DOA17(),
+    .CLKB(clock), .CEB(1'b1), .OCEB(1'b1), .WEB(1'b0), .RSTB(1'b0),
+        .CSB0(1'b0), .CSB1(1'b0), .CSB2(1'b0),
+        .ADB0(read_pins[0]), .ADB1(read_pins[1]), .ADB2(read_pins[2]), .ADB3(read_pins[3]), .ADB4(read_pins[4]), .ADB5(read_pins[5]), .ADB6(read_pins[6]), .ADB7(read_pins[7]),
+        .ADB8(read_pins[8]), .ADB9(read_pins[9]), .ADB10(read_pins[10]), .ADB11(read_pins[11]), .ADB12(read_pins[12]), .ADB13(read_pins[13]),
+        .DIB0(nothing[0]), .DIB1(nothing[1]), .DIB2(nothing[2]), .DIB3(nothing[3]), .DIB4(nothing[4]), .DIB5(nothing[5]), .DIB6(nothing[6]), .DIB7(nothing[7]),
+        .DIB8(nothing[8]), .DIB9(nothing[9]), .DIB10(nothing[10]), .DIB11(nothing[11]), .DIB12(nothing[12]), .DIB13(nothing[13]), .DIB14(nothing[14]), .DIB15(nothing[15]),
+        .DIB16(nothing[16]), .DIB17(nothing[17]),
+        .DOB0(given[0]), .DOB1(given[1]), .DOB2(given[2]), .DOB3(given[3]), .DOB4(given[4]), .DOB5(given[5]), .DOB6(given[6]), .DOB7(given[7]),
+        .DOB8(given[8]), .DOB9(given[9]), .DOB10(given[10]), .DOB11(given[11]), .DOB12(given[12]), .DOB13(given[13]), .DOB14(given[14]), .DOB15(given[15]),
+        .DOB16(given[16]), .DOB17(given[17])
+    );
+    end endgenerate
+    always @(*) read_data = word;
+    `else
+    (* ram_style = "block", no_rw_check *)
+    reg [31:0] memory [0:255];
+    reg [31:0] word;
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+        word <= memory[read_address];
+        read_data <= word;
+    end
+    `endif
+endmodule // incircle_stream_top_engines$slot3$queue$words$ring$memory
+
+
+module incircle_stream_top_engines$slot3$queue$words$ring$place_in_array(d,q,clock);
     
     // Module arguments
     input wire  [3:0] d;
@@ -110788,7 +115021,66 @@ module incircle_stream_top_engines$slot3$queue$words$oldest(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_engines$slot3$queue$words$oldest
+endmodule // incircle_stream_top_engines$slot3$queue$words$ring$place_in_array
+
+
+module incircle_stream_top_engines$slot3$queue$words$ring$place_in_output(d,q,clock);
+    
+    // Module arguments
+    input wire  [3:0] d;
+    output reg  [3:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 4'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$ring$place_in_output
+
+
+module incircle_stream_top_engines$slot3$queue$words$was_fetched(clock,write_address,write_data,write_enable,read_address,read_data);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  [3:0] write_address;
+    input wire  write_data;
+    input wire  write_enable;
+    input wire  [3:0] read_address;
+    output reg  read_data;
+    
+    // Update code (custom)
+    (* ram_style = "distributed" *)
+    reg [0:0] memory [0:15];
+    wire [0:0] word = memory[read_address];
+    always @(posedge clock) begin
+        if (write_enable) memory[write_address] <= write_data;
+    end
+    always @(*) read_data = word;
+endmodule // incircle_stream_top_engines$slot3$queue$words$was_fetched
+
+
+module incircle_stream_top_engines$slot3$queue$words$window_is_full(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_engines$slot3$queue$words$window_is_full
 
 `default_nettype wire
 `default_nettype none

@@ -179,19 +179,19 @@ module incircle_stream_top_logic$core(clock,reset,command$valid,command$ready,co
     wire  [10:0] command_port$clearing;
     wire  [16:0] command_port$deal;
     wire  command_port$answers;
-    wire  [71:0] command_port$request;
+    wire  [73:0] command_port$request;
     wire  [47:0] command_port$tally;
     reg  [2:0] command_port$answer;
     wire  [2:0] command_port$activity;
     reg  answer_head$clock;
-    reg  [71:0] answer_head$request;
+    reg  [73:0] answer_head$request;
     reg  [10:0] answer_head$clearing;
     reg  [7:0] answer_head$engine;
     reg  [14:0] answer_head$records;
     reg  answer_head$collinear;
     reg  answer_head$stuck;
     reg  answer_head$some_refused;
-    wire  [66:0] answer_head$head;
+    wire  [68:0] answer_head$head;
     reg  answer_words$clock;
     reg  [7:0] answer_words$opcode;
     reg  [14:0] answer_words$capacity;
@@ -211,8 +211,8 @@ module incircle_stream_top_logic$core(clock,reset,command$valid,command$ready,co
     reg  responder$reset;
     reg  responder$answers;
     reg  responder$sweeps;
-    reg  [71:0] responder$request;
-    reg  [66:0] responder$head;
+    reg  [73:0] responder$request;
+    reg  [68:0] responder$head;
     reg  [31:0] responder$word;
     wire  [6:0] responder$index;
     wire  [6:0] responder$index_ahead;
@@ -455,61 +455,40 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
     
     // Module arguments
     input wire  clock;
-    input wire  [71:0] request;
+    input wire  [73:0] request;
     input wire  [10:0] clearing;
     input wire  [7:0] engine;
     input wire  [14:0] records;
     input wire  collinear;
     input wire  stuck;
     input wire  some_refused;
-    output reg  [66:0] head;
+    output reg  [68:0] head;
     
     // Stub signals
-    reg  [32:0] range_end$d;
-    wire  [32:0] range_end$q;
-    reg  range_end$clock;
-    reg  [14:0] range_bound$d;
-    wire  [14:0] range_bound$q;
-    reg  range_bound$clock;
-    reg  [31:0] triple$d;
-    wire  [31:0] triple$q;
-    reg  triple$clock;
-    reg  counts_none$d;
-    wire  counts_none$q;
-    reg  counts_none$clock;
+    reg  range$clock;
+    reg  [73:0] range$request;
+    reg  [14:0] range$records;
+    wire  range$is_outside;
+    wire  range$has_none;
+    wire  [16:0] range$whole_length;
+    wire  [16:0] range$packed_length;
     reg  [2:0] insert_status$d;
     wire  [2:0] insert_status$q;
     reg  insert_status$clock;
-    reg  is_outside$d;
-    wire  is_outside$q;
-    reg  is_outside$clock;
-    reg  [31:0] read_length$d;
-    wire  [31:0] read_length$q;
-    reg  read_length$clock;
-    reg  [31:0] packed_length$d;
-    wire  [31:0] packed_length$q;
-    reg  packed_length$clock;
-    reg  reads_none$d;
-    wire  reads_none$q;
-    reg  reads_none$clock;
     reg  [2:0] report_status$d;
     wire  [2:0] report_status$q;
     reg  report_status$clock;
     reg  [2:0] answer_status$d;
     wire  [2:0] answer_status$q;
     reg  answer_status$clock;
-    reg  [31:0] answer_length$d;
-    wire  [31:0] answer_length$q;
+    reg  [16:0] answer_length$d;
+    wire  [16:0] answer_length$q;
     reg  answer_length$clock;
     reg  has_none$d;
     wire  has_none$q;
     reg  has_none$clock;
     
     // Local signals
-    reg  [32:0] wide_first;
-    reg  [32:0] wide_count;
-    reg  [32:0] wide_bound;
-    reg  [31:0] double_count;
     reg  [31:0] status;
     reg  [31:0] shifted_status;
     reg  [31:0] wide_opcode;
@@ -517,61 +496,27 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
     reg  [31:0] wide_engine;
     reg  [31:0] shifted_engine;
     reg  [31:0] job;
-    reg  [31:0] none;
-    reg  [31:0] one;
     reg  [31:0] status_shift;
     reg  [31:0] opcode_shift;
     reg  [31:0] engine_shift;
     reg  [7:0] read_code;
     reg  [7:0] packed_code;
     reg  packs;
-    reg  [31:0] rounded;
     
     // Sub module instances
-    incircle_stream_top_logic$core$answer_head$range_end range_end(
-        .d(range_end$d),
-        .q(range_end$q),
-        .clock(range_end$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$range_bound range_bound(
-        .d(range_bound$d),
-        .q(range_bound$q),
-        .clock(range_bound$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$triple triple(
-        .d(triple$d),
-        .q(triple$q),
-        .clock(triple$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$counts_none counts_none(
-        .d(counts_none$d),
-        .q(counts_none$q),
-        .clock(counts_none$clock)
+    incircle_stream_top_logic$core$answer_head$range range(
+        .clock(range$clock),
+        .request(range$request),
+        .records(range$records),
+        .is_outside(range$is_outside),
+        .has_none(range$has_none),
+        .whole_length(range$whole_length),
+        .packed_length(range$packed_length)
     );
     incircle_stream_top_logic$core$answer_head$insert_status insert_status(
         .d(insert_status$d),
         .q(insert_status$q),
         .clock(insert_status$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$is_outside is_outside(
-        .d(is_outside$d),
-        .q(is_outside$q),
-        .clock(is_outside$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$read_length read_length(
-        .d(read_length$d),
-        .q(read_length$q),
-        .clock(read_length$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$packed_length packed_length(
-        .d(packed_length$d),
-        .q(packed_length$q),
-        .clock(packed_length$clock)
-    );
-    incircle_stream_top_logic$core$answer_head$reads_none reads_none(
-        .d(reads_none$d),
-        .q(reads_none$q),
-        .clock(reads_none$clock)
     );
     incircle_stream_top_logic$core$answer_head$report_status report_status(
         .d(report_status$d),
@@ -596,46 +541,24 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
     
     // Update code
     always @(*) begin
-        range_end$clock = clock;
-        range_bound$clock = clock;
-        triple$clock = clock;
-        counts_none$clock = clock;
         insert_status$clock = clock;
-        range_end$d = range_end$q;
-        range_bound$d = range_bound$q;
-        triple$d = triple$q;
-        counts_none$d = counts_none$q;
-        insert_status$d = insert_status$q;
-        is_outside$clock = clock;
-        read_length$clock = clock;
-        packed_length$clock = clock;
-        reads_none$clock = clock;
         report_status$clock = clock;
-        is_outside$d = is_outside$q;
-        read_length$d = read_length$q;
-        packed_length$d = packed_length$q;
-        reads_none$d = reads_none$q;
-        report_status$d = report_status$q;
         answer_status$clock = clock;
         answer_length$clock = clock;
         has_none$clock = clock;
+        insert_status$d = insert_status$q;
+        report_status$d = report_status$q;
         answer_status$d = answer_status$q;
         answer_length$d = answer_length$q;
         has_none$d = has_none$q;
-        none = 32'h0;
-        one = 32'h1;
+        range$clock = clock;
         status_shift = 32'h10;
         opcode_shift = 32'h18;
         engine_shift = 32'h8;
         read_code = 32'h4;
         packed_code = 32'h7;
-        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
-        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
-        range_end$d = wide_first + wide_count;
-        range_bound$d = records;
-        double_count = request[(64'h28)+:(32)] << one;
-        triple$d = double_count + request[(64'h28)+:(32)];
-        counts_none$d = request[(64'h28)+:(32)] == none;
+        range$request = request;
+        range$records = records;
         insert_status$d = 32'h0;
         if (some_refused) begin
             insert_status$d = 32'h4;
@@ -646,12 +569,6 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         if (stuck) begin
             insert_status$d = 32'h6;
         end
-        wide_bound = ((range_bound$q) & 33'h1ffffffff);
-        is_outside$d = range_end$q > wide_bound;
-        read_length$d = triple$q;
-        rounded = triple$q + one;
-        packed_length$d = rounded >> one;
-        reads_none$d = counts_none$q;
         report_status$d = insert_status$q;
         answer_status$d = 32'h0;
         answer_length$d = 32'h0;
@@ -675,9 +592,9 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
                 end
             4:
                 begin
-                    answer_length$d = read_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$whole_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -693,9 +610,9 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
                 end
             7:
                 begin
-                    answer_length$d = packed_length$q;
-                    has_none$d = reads_none$q;
-                    if (is_outside$q) begin
+                    answer_length$d = range$packed_length;
+                    has_none$d = range$has_none;
+                    if (range$is_outside) begin
                         answer_status$d = 32'h2;
                         answer_length$d = 32'h0;
                         has_none$d = 1'b1;
@@ -709,8 +626,10 @@ module incircle_stream_top_logic$core$answer_head(clock,request,clearing,engine,
         endcase
         packs = request[(64'h0)+:(8)] == packed_code;
         head[(64'h42)+:(1)] = packs;
+        head[(64'h43)+:(1)] = request[(64'h48)+:(1)];
+        head[(64'h44)+:(1)] = request[(64'h49)+:(1)];
         head[(64'h41)+:(1)] = packs | (request[(64'h0)+:(8)] == read_code);
-        head[(64'h20)+:(32)] = answer_length$q;
+        head[(64'h20)+:(32)] = ((answer_length$q) & 32'hffffffff);
         head[(64'h40)+:(1)] = has_none$q;
         status = ((answer_status$q) & 32'hffffffff);
         shifted_status = status << status_shift;
@@ -728,13 +647,13 @@ endmodule // incircle_stream_top_logic$core$answer_head
 module incircle_stream_top_logic$core$answer_head$answer_length(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [16:0] d;
+    output reg  [16:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 17'h0;
     end
     
     always @(posedge clock) begin
@@ -761,25 +680,6 @@ module incircle_stream_top_logic$core$answer_head$answer_status(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$answer_head$answer_status
-
-
-module incircle_stream_top_logic$core$answer_head$counts_none(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$counts_none
 
 
 module incircle_stream_top_logic$core$answer_head$has_none(d,q,clock);
@@ -820,45 +720,174 @@ module incircle_stream_top_logic$core$answer_head$insert_status(d,q,clock);
 endmodule // incircle_stream_top_logic$core$answer_head$insert_status
 
 
-module incircle_stream_top_logic$core$answer_head$is_outside(d,q,clock);
+module incircle_stream_top_logic$core$answer_head$range(clock,request,records,is_outside,has_none,whole_length,packed_length);
     
     // Module arguments
-    input wire  d;
-    output reg  q;
     input wire  clock;
+    input wire  [73:0] request;
+    input wire  [14:0] records;
+    output reg  is_outside;
+    output reg  has_none;
+    output reg  [16:0] whole_length;
+    output reg  [16:0] packed_length;
     
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
+    // Stub signals
+    reg  [32:0] range_end$d;
+    wire  [32:0] range_end$q;
+    reg  range_end$clock;
+    reg  [14:0] bound$d;
+    wire  [14:0] bound$q;
+    reg  bound$clock;
+    reg  counts_none$d;
+    wire  counts_none$q;
+    reg  counts_none$clock;
+    reg  [16:0] triple$d;
+    wire  [16:0] triple$q;
+    reg  triple$clock;
+    reg  [16:0] number$d;
+    wire  [16:0] number$q;
+    reg  number$clock;
+    reg  [16:0] enlarged$d;
+    wire  [16:0] enlarged$q;
+    reg  enlarged$clock;
+    reg  outside$d;
+    wire  outside$q;
+    reg  outside$clock;
+    reg  reads_none$d;
+    wire  reads_none$q;
+    reg  reads_none$clock;
+    reg  [16:0] whole$d;
+    wire  [16:0] whole$q;
+    reg  whole$clock;
+    reg  [16:0] vertices$d;
+    wire  [16:0] vertices$q;
+    reg  vertices$clock;
+    
+    // Local signals
+    reg  [32:0] wide_first;
+    reg  [32:0] wide_count;
+    reg  [32:0] wide_bound;
+    reg  [31:0] none;
+    reg  [14:0] few;
+    reg  [16:0] count;
+    reg  [16:0] more;
+    reg  [16:0] added;
+    reg  [16:0] one;
+    reg  [16:0] three;
+    
+    // Sub module instances
+    incircle_stream_top_logic$core$answer_head$range$range_end range_end(
+        .d(range_end$d),
+        .q(range_end$q),
+        .clock(range_end$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$bound bound(
+        .d(bound$d),
+        .q(bound$q),
+        .clock(bound$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$counts_none counts_none(
+        .d(counts_none$d),
+        .q(counts_none$q),
+        .clock(counts_none$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$triple triple(
+        .d(triple$d),
+        .q(triple$q),
+        .clock(triple$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$number number(
+        .d(number$d),
+        .q(number$q),
+        .clock(number$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$enlarged enlarged(
+        .d(enlarged$d),
+        .q(enlarged$q),
+        .clock(enlarged$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$outside outside(
+        .d(outside$d),
+        .q(outside$q),
+        .clock(outside$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$reads_none reads_none(
+        .d(reads_none$d),
+        .q(reads_none$q),
+        .clock(reads_none$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$whole whole(
+        .d(whole$d),
+        .q(whole$q),
+        .clock(whole$clock)
+    );
+    incircle_stream_top_logic$core$answer_head$range$vertices vertices(
+        .d(vertices$d),
+        .q(vertices$q),
+        .clock(vertices$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        range_end$clock = clock;
+        bound$clock = clock;
+        counts_none$clock = clock;
+        triple$clock = clock;
+        number$clock = clock;
+        enlarged$clock = clock;
+        range_end$d = range_end$q;
+        bound$d = bound$q;
+        counts_none$d = counts_none$q;
+        triple$d = triple$q;
+        number$d = number$q;
+        enlarged$d = enlarged$q;
+        outside$clock = clock;
+        reads_none$clock = clock;
+        whole$clock = clock;
+        vertices$clock = clock;
+        outside$d = outside$q;
+        reads_none$d = reads_none$q;
+        whole$d = whole$q;
+        vertices$d = vertices$q;
+        none = 32'h0;
+        one = 32'h1;
+        three = 32'h3;
+        wide_first = ((request[(64'h8)+:(32)]) & 33'h1ffffffff);
+        wide_count = ((request[(64'h28)+:(32)]) & 33'h1ffffffff);
+        range_end$d = wide_first + wide_count;
+        bound$d = records;
+        counts_none$d = request[(64'h28)+:(32)] == none;
+        few = ((request[(64'h28)+:(32)]) & 15'h7fff);
+        count = ((few) & 17'h1ffff);
+        triple$d = count + (count << one);
+        number$d = count;
+        added = 32'h1;
+        if (request[(64'h48)+:(1)]) begin
+            added = 32'h7;
+        end
+        enlarged$d = count + added;
+        wide_bound = ((bound$q) & 33'h1ffffffff);
+        outside$d = range_end$q > wide_bound;
+        reads_none$d = counts_none$q;
+        whole$d = triple$q;
+        more = enlarged$q >> one;
+        if (request[(64'h48)+:(1)]) begin
+            more = enlarged$q >> three;
+            if (~request[(64'h49)+:(1)]) begin
+                more = 32'h0;
+            end
+        end
+        vertices$d = number$q + more;
+        is_outside = outside$q;
+        has_none = reads_none$q;
+        whole_length = whole$q;
+        packed_length = vertices$q;
     end
     
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$is_outside
+endmodule // incircle_stream_top_logic$core$answer_head$range
 
 
-module incircle_stream_top_logic$core$answer_head$packed_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$packed_length
-
-
-module incircle_stream_top_logic$core$answer_head$range_bound(d,q,clock);
+module incircle_stream_top_logic$core$answer_head$range$bound(d,q,clock);
     
     // Module arguments
     input wire  [14:0] d;
@@ -874,48 +903,10 @@ module incircle_stream_top_logic$core$answer_head$range_bound(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_logic$core$answer_head$range_bound
+endmodule // incircle_stream_top_logic$core$answer_head$range$bound
 
 
-module incircle_stream_top_logic$core$answer_head$range_end(d,q,clock);
-    
-    // Module arguments
-    input wire  [32:0] d;
-    output reg  [32:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 33'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$range_end
-
-
-module incircle_stream_top_logic$core$answer_head$read_length(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$read_length
-
-
-module incircle_stream_top_logic$core$answer_head$reads_none(d,q,clock);
+module incircle_stream_top_logic$core$answer_head$range$counts_none(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -931,7 +922,159 @@ module incircle_stream_top_logic$core$answer_head$reads_none(d,q,clock);
        q <= d;
     end
           
-endmodule // incircle_stream_top_logic$core$answer_head$reads_none
+endmodule // incircle_stream_top_logic$core$answer_head$range$counts_none
+
+
+module incircle_stream_top_logic$core$answer_head$range$enlarged(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$enlarged
+
+
+module incircle_stream_top_logic$core$answer_head$range$number(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$number
+
+
+module incircle_stream_top_logic$core$answer_head$range$outside(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$outside
+
+
+module incircle_stream_top_logic$core$answer_head$range$range_end(d,q,clock);
+    
+    // Module arguments
+    input wire  [32:0] d;
+    output reg  [32:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 33'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$range_end
+
+
+module incircle_stream_top_logic$core$answer_head$range$reads_none(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$reads_none
+
+
+module incircle_stream_top_logic$core$answer_head$range$triple(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$triple
+
+
+module incircle_stream_top_logic$core$answer_head$range$vertices(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$vertices
+
+
+module incircle_stream_top_logic$core$answer_head$range$whole(d,q,clock);
+    
+    // Module arguments
+    input wire  [16:0] d;
+    output reg  [16:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 17'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$answer_head$range$whole
 
 
 module incircle_stream_top_logic$core$answer_head$report_status(d,q,clock);
@@ -951,25 +1094,6 @@ module incircle_stream_top_logic$core$answer_head$report_status(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$answer_head$report_status
-
-
-module incircle_stream_top_logic$core$answer_head$triple(d,q,clock);
-    
-    // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 32'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$answer_head$triple
 
 
 module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,contexts,engines,ring_capacity,tally,insertions,duplicates,records,index,counter,latency,chooses,word);
@@ -1008,6 +1132,7 @@ module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,context
     reg  [31:0] wide_engines;
     reg  [31:0] shifted_engines;
     reg  [31:0] engines_shift;
+    reg  [31:0] features;
     
     // Sub module instances
     incircle_stream_top_logic$core$answer_words$identity identity(
@@ -1037,6 +1162,7 @@ module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,context
         word = chosen$q;
         place = index[(32'h0)+:(3)];
         engines_shift = 32'h8;
+        features = 32'h20000;
         wide_contexts = ((contexts) & 32'hffffffff);
         wide_engines = ((engines) & 32'hffffffff);
         shifted_engines = wide_engines << engines_shift;
@@ -1073,7 +1199,7 @@ module incircle_stream_top_logic$core$answer_words(clock,opcode,capacity,context
                 end
             default:
                 begin
-                    identity$d = ((ring_capacity) & 32'hffffffff);
+                    identity$d = ((ring_capacity) & 32'hffffffff) | features;
                     report$d = 32'h0;
                 end
         endcase
@@ -1175,7 +1301,7 @@ module incircle_stream_top_logic$core$command_port(clock,reset,capacity,built,co
     output reg  [10:0] clearing;
     output reg  [16:0] deal;
     output reg  answers;
-    output reg  [71:0] request;
+    output reg  [73:0] request;
     output reg  [47:0] tally;
     input wire  [2:0] answer;
     output reg  [2:0] activity;
@@ -1192,8 +1318,8 @@ module incircle_stream_top_logic$core$command_port(clock,reset,capacity,built,co
     reg  [2:0] state$d;
     wire  [2:0] state$q;
     reg  state$clock;
-    reg  [71:0] held$d;
-    wire  [71:0] held$q;
+    reg  [73:0] held$d;
+    wire  [73:0] held$q;
     reg  held$clock;
     reg  none_is_left$d;
     wire  none_is_left$q;
@@ -1339,6 +1465,8 @@ module incircle_stream_top_logic$core$command_port(clock,reset,capacity,built,co
                 begin
                     if (gate$taken[(64'h0)+:(1)]) begin
                         held$d[(64'h0)+:(8)] = code;
+                        held$d[(64'h48)+:(1)] = command$data[32'h3];
+                        held$d[(64'h49)+:(1)] = command$data[32'h2];
                         state$d = CommandState$Answer;
                         if (code == insert_code) begin
                             state$d = CommandState$Count;
@@ -1912,13 +2040,13 @@ endmodule // incircle_stream_top_logic$core$command_port$gate
 module incircle_stream_top_logic$core$command_port$held(d,q,clock);
     
     // Module arguments
-    input wire  [71:0] d;
-    output reg  [71:0] q;
+    input wire  [73:0] d;
+    output reg  [73:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 72'h0;
+       q = 74'h0;
     end
     
     always @(posedge clock) begin
@@ -24232,8 +24360,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
     input wire  reset;
     input wire  answers;
     input wire  sweeps;
-    input wire  [71:0] request;
-    input wire  [66:0] head;
+    input wire  [73:0] request;
+    input wire  [68:0] head;
     input wire  [31:0] word;
     output reg  [6:0] index;
     output reg  [6:0] index_ahead;
@@ -24288,6 +24416,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
     reg  [14:0] records$first;
     reg  [14:0] records$count;
     reg  records$is_packed;
+    reg  records$has_short_ids;
+    reg  records$has_rests;
     reg  records$runs;
     wire  records$read;
     wire  [14:0] records$read_id;
@@ -24346,6 +24476,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
         .first(records$first),
         .count(records$count),
         .is_packed(records$is_packed),
+        .has_short_ids(records$has_short_ids),
+        .has_rests(records$has_rests),
         .runs(records$runs),
         .read(records$read),
         .read_id(records$read_id),
@@ -24390,6 +24522,8 @@ module incircle_stream_top_logic$core$responder(clock,reset,answers,sweeps,reque
         records$first = ((request[(64'h8)+:(32)]) & 15'h7fff);
         records$count = ((request[(64'h28)+:(32)]) & 15'h7fff);
         records$is_packed = head[(64'h42)+:(1)];
+        records$has_short_ids = head[(64'h43)+:(1)];
+        records$has_rests = head[(64'h44)+:(1)];
         records$runs = state$q == AnswerState$Records;
         read = records$read;
         read_id = records$read_id;
@@ -24490,7 +24624,7 @@ module incircle_stream_top_logic$core$responder$offered(d,q,clock);
 endmodule // incircle_stream_top_logic$core$responder$offered
 
 
-module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first,count,is_packed,runs,read,read_id,read_done,record,valid,beat,takes);
+module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first,count,is_packed,has_short_ids,has_rests,runs,read,read_id,read_done,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -24499,6 +24633,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     input wire  [14:0] first;
     input wire  [14:0] count;
     input wire  is_packed;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  runs;
     output reg  read;
     output reg  [14:0] read_id;
@@ -24512,6 +24648,12 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     reg  vertices_alone$d;
     wire  vertices_alone$q;
     reg  vertices_alone$clock;
+    reg  ids_are_short$d;
+    wire  ids_are_short$q;
+    reg  ids_are_short$clock;
+    reg  rests_follow$d;
+    wire  rests_follow$q;
+    reg  rests_follow$clock;
     reg  [14:0] record_id$d;
     wire  [14:0] record_id$q;
     reg  record_id$clock;
@@ -24532,6 +24674,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     reg  stream$starts;
     reg  [14:0] stream$count;
     reg  stream$vertices_alone;
+    reg  stream$has_short_ids;
+    reg  stream$has_rests;
     wire  stream$has_room;
     reg  stream$comes;
     reg  [90:0] stream$record;
@@ -24555,6 +24699,16 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         .d(vertices_alone$d),
         .q(vertices_alone$q),
         .clock(vertices_alone$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$ids_are_short ids_are_short(
+        .d(ids_are_short$d),
+        .q(ids_are_short$q),
+        .clock(ids_are_short$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$rests_follow rests_follow(
+        .d(rests_follow$d),
+        .q(rests_follow$q),
+        .clock(rests_follow$clock)
     );
     incircle_stream_top_logic$core$responder$records$record_id record_id(
         .d(record_id$d),
@@ -24587,6 +24741,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         .starts(stream$starts),
         .count(stream$count),
         .vertices_alone(stream$vertices_alone),
+        .has_short_ids(stream$has_short_ids),
+        .has_rests(stream$has_rests),
         .has_room(stream$has_room),
         .comes(stream$comes),
         .record(stream$record),
@@ -24608,6 +24764,11 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
     // Update code
     always @(*) begin
         vertices_alone$clock = clock;
+        ids_are_short$clock = clock;
+        rests_follow$clock = clock;
+        vertices_alone$d = vertices_alone$q;
+        ids_are_short$d = ids_are_short$q;
+        rests_follow$d = rests_follow$q;
         record_id$clock = clock;
         left$clock = clock;
         some_are_left$clock = clock;
@@ -24615,7 +24776,6 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         pauses$clock = clock;
         is_there$clock = clock;
         head$clock = clock;
-        vertices_alone$d = vertices_alone$q;
         record_id$d = record_id$q;
         left$d = left$q;
         some_are_left$d = some_are_left$q;
@@ -24626,6 +24786,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         stream$clock = clock;
         one = 32'h1;
         vertices_alone$d = is_packed;
+        ids_are_short$d = is_packed & has_short_ids;
+        rests_follow$d = is_packed & has_short_ids & has_rests;
         asks = runs & some_are_left$q & stream$has_room & (~pauses$q);
         read = asks;
         read_id = record_id$q;
@@ -24646,6 +24808,8 @@ module incircle_stream_top_logic$core$responder$records(clock,reset,starts,first
         stream$starts = starts;
         stream$count = count;
         stream$vertices_alone = vertices_alone$q;
+        stream$has_short_ids = ids_are_short$q;
+        stream$has_rests = rests_follow$q;
         stream$comes = read_done;
         stream$record = record;
         valid = is_there$q;
@@ -24682,6 +24846,25 @@ module incircle_stream_top_logic$core$responder$records$head(d,q,clock);
     end
           
 endmodule // incircle_stream_top_logic$core$responder$records$head
+
+
+module incircle_stream_top_logic$core$responder$records$ids_are_short(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$ids_are_short
 
 
 module incircle_stream_top_logic$core$responder$records$is_second(d,q,clock);
@@ -24779,6 +24962,25 @@ module incircle_stream_top_logic$core$responder$records$record_id(d,q,clock);
 endmodule // incircle_stream_top_logic$core$responder$records$record_id
 
 
+module incircle_stream_top_logic$core$responder$records$rests_follow(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$rests_follow
+
+
 module incircle_stream_top_logic$core$responder$records$some_are_left(d,q,clock);
     
     // Module arguments
@@ -24798,7 +25000,7 @@ module incircle_stream_top_logic$core$responder$records$some_are_left(d,q,clock)
 endmodule // incircle_stream_top_logic$core$responder$records$some_are_left
 
 
-module incircle_stream_top_logic$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_room,comes,record,valid,beat,takes);
+module incircle_stream_top_logic$core$responder$records$stream(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,has_room,comes,record,valid,beat,takes);
     
     // Module arguments
     input wire  clock;
@@ -24806,6 +25008,8 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     output reg  has_room;
     input wire  comes;
     input wire  [90:0] record;
@@ -24826,14 +25030,19 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
     reg  halves$clock;
     reg  [90:0] halves$record;
     reg  halves$vertices_alone;
+    reg  halves$has_short_ids;
     wire  [95:0] halves$halves;
+    wire  [3:0] halves$rest;
     reg  packer$clock;
     reg  packer$reset;
     reg  packer$starts;
     reg  [14:0] packer$count;
     reg  packer$vertices_alone;
+    reg  packer$has_short_ids;
+    reg  packer$has_rests;
     reg  packer$comes;
     reg  [95:0] packer$halves;
+    reg  [3:0] packer$rest;
     wire  packer$valid;
     wire  [65:0] packer$beat;
     reg  queue$clock;
@@ -24871,7 +25080,9 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
         .clock(halves$clock),
         .record(halves$record),
         .vertices_alone(halves$vertices_alone),
-        .halves(halves$halves)
+        .has_short_ids(halves$has_short_ids),
+        .halves(halves$halves),
+        .rest(halves$rest)
     );
     incircle_stream_top_logic$core$responder$records$stream$packer packer(
         .clock(packer$clock),
@@ -24879,8 +25090,11 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
         .starts(packer$starts),
         .count(packer$count),
         .vertices_alone(packer$vertices_alone),
+        .has_short_ids(packer$has_short_ids),
+        .has_rests(packer$has_rests),
         .comes(packer$comes),
         .halves(packer$halves),
+        .rest(packer$rest),
         .valid(packer$valid),
         .beat(packer$beat)
     );
@@ -24917,9 +25131,13 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
         has_come$d = comes;
         halves$record = record;
         halves$vertices_alone = vertices_alone;
+        halves$has_short_ids = has_short_ids;
         packer$vertices_alone = vertices_alone;
+        packer$has_short_ids = has_short_ids;
+        packer$has_rests = has_rests;
         packer$comes = has_come$q;
         packer$halves = halves$halves;
+        packer$rest = halves$rest;
         queue$reset = reset;
         queue$push = packer$valid;
         beat_bits = packer$beat;
@@ -24945,13 +25163,15 @@ module incircle_stream_top_logic$core$responder$records$stream(clock,reset,start
 endmodule // incircle_stream_top_logic$core$responder$records$stream
 
 
-module incircle_stream_top_logic$core$responder$records$stream$halves(clock,record,vertices_alone,halves);
+module incircle_stream_top_logic$core$responder$records$stream$halves(clock,record,vertices_alone,has_short_ids,halves,rest);
     
     // Module arguments
     input wire  clock;
     input wire  [90:0] record;
     input wire  vertices_alone;
+    input wire  has_short_ids;
     output reg  [95:0] halves;
+    output reg  [3:0] rest;
     
     // Stub signals
     reg  [90:0] kept$d;
@@ -24972,6 +25192,13 @@ module incircle_stream_top_logic$core$responder$records$stream$halves(clock,reco
     reg  [15:0] lock;
     reg  [15:0] id_bits;
     reg  [15:0] one;
+    reg  [3:0] two_bits;
+    reg  [15:0] four;
+    reg  [15:0] six;
+    reg  [15:0] ten;
+    reg  [15:0] low_ten;
+    reg  [15:0] low_four;
+    reg  [15:0] top_two;
     
     // Sub module instances
     incircle_stream_top_logic$core$responder$records$stream$halves$kept kept(
@@ -24986,6 +25213,13 @@ module incircle_stream_top_logic$core$responder$records$stream$halves(clock,reco
         kept$d = kept$q;
         id_bits = 32'hf;
         one = 32'h1;
+        two_bits = 32'h2;
+        four = 32'h4;
+        six = 32'h6;
+        ten = 32'ha;
+        low_ten = 32'h3ff;
+        low_four = 32'hf;
+        top_two = 32'hc000;
         kept$d = record;
         lock = 32'h0;
         if (kept$q[(64'h5a)+:(1)]) begin
@@ -25011,7 +25245,12 @@ module incircle_stream_top_logic$core$responder$records$stream$halves(clock,reco
             halves[(64'h0)+:(16)] = vertex0;
             halves[(64'h10)+:(16)] = vertex1;
             halves[(64'h20)+:(16)] = vertex2;
+            if (has_short_ids) begin
+                halves[(64'h0)+:(16)] = (vertex0 & low_ten) | (vertex1 << ten);
+                halves[(64'h10)+:(16)] = ((vertex1 >> six) & low_four) | ((vertex2 & low_ten) << four) | ((vertex0 << four) & top_two);
+            end
         end
+        rest = ((vertex1[(32'ha)+:(2)]) & 4'hf) | (((vertex2[(32'ha)+:(2)]) & 4'hf) << two_bits);
     end
     
 endmodule // incircle_stream_top_logic$core$responder$records$stream$halves
@@ -25066,7 +25305,7 @@ module incircle_stream_top_logic$core$responder$records$stream$head(bits,value);
 endmodule // incircle_stream_top_logic$core$responder$records$stream$head
 
 
-module incircle_stream_top_logic$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,comes,halves,valid,beat);
+module incircle_stream_top_logic$core$responder$records$stream$packer(clock,reset,starts,count,vertices_alone,has_short_ids,has_rests,comes,halves,rest,valid,beat);
     
     // Module arguments
     input wire  clock;
@@ -25074,17 +25313,20 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
     input wire  starts;
     input wire  [14:0] count;
     input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  has_rests;
     input wire  comes;
     input wire  [95:0] halves;
+    input wire  [3:0] rest;
     output reg  valid;
     output reg  [65:0] beat;
     
     // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Stub signals
     reg  is_there$d;
@@ -25093,31 +25335,38 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
     reg  [65:0] filled$d;
     wire  [65:0] filled$q;
     reg  filled$clock;
-    reg  [2:0] number$d;
-    wire  [2:0] number$q;
-    reg  number$clock;
     reg  [63:0] kept$d;
     wire  [63:0] kept$q;
     reg  kept$clock;
-    reg  many_are_kept$d;
-    wire  many_are_kept$q;
-    reg  many_are_kept$clock;
-    reg  [14:0] left$d;
-    wire  [14:0] left$q;
-    reg  left$clock;
-    reg  is_last$d;
-    wire  is_last$q;
-    reg  is_last$clock;
-    reg  all_came$d;
-    wire  all_came$q;
-    reg  all_came$clock;
+    reg  number$clock;
+    reg  number$reset;
+    reg  number$vertices_alone;
+    reg  number$has_short_ids;
+    reg  number$comes;
+    reg  number$is_last;
+    reg  number$brings_rests;
+    reg  number$all_came;
+    wire  [2:0] number$number;
+    wire  number$fills;
+    wire  number$moves;
+    wire  number$both;
+    wire  number$last;
+    reg  group$clock;
+    reg  group$starts;
+    reg  [14:0] group$count;
+    reg  group$comes;
+    reg  [3:0] group$rest;
+    wire  group$is_last;
+    wire  group$ends_group;
+    wire  group$all_came;
+    wire  [31:0] group$rests;
     
     // Local signals
-    reg  takes;
+    reg  brings_rests;
+    reg  [15:0] third;
+    reg  [15:0] fourth;
     reg  [63:0] sent;
     reg  [63:0] sent_bits;
-    reg  [14:0] one;
-    reg  [14:0] two;
     
     // Sub module instances
     incircle_stream_top_logic$core$responder$records$stream$packer$is_there is_there(
@@ -25130,170 +25379,133 @@ module incircle_stream_top_logic$core$responder$records$stream$packer(clock,rese
         .q(filled$q),
         .clock(filled$clock)
     );
-    incircle_stream_top_logic$core$responder$records$stream$packer$number number(
-        .d(number$d),
-        .q(number$q),
-        .clock(number$clock)
-    );
     incircle_stream_top_logic$core$responder$records$stream$packer$kept kept(
         .d(kept$d),
         .q(kept$q),
         .clock(kept$clock)
     );
-    incircle_stream_top_logic$core$responder$records$stream$packer$many_are_kept many_are_kept(
-        .d(many_are_kept$d),
-        .q(many_are_kept$q),
-        .clock(many_are_kept$clock)
+    incircle_stream_top_logic$core$responder$records$stream$packer$number number(
+        .clock(number$clock),
+        .reset(number$reset),
+        .vertices_alone(number$vertices_alone),
+        .has_short_ids(number$has_short_ids),
+        .comes(number$comes),
+        .is_last(number$is_last),
+        .brings_rests(number$brings_rests),
+        .all_came(number$all_came),
+        .number(number$number),
+        .fills(number$fills),
+        .moves(number$moves),
+        .both(number$both),
+        .last(number$last)
     );
-    incircle_stream_top_logic$core$responder$records$stream$packer$left left(
-        .d(left$d),
-        .q(left$q),
-        .clock(left$clock)
-    );
-    incircle_stream_top_logic$core$responder$records$stream$packer$is_last is_last(
-        .d(is_last$d),
-        .q(is_last$q),
-        .clock(is_last$clock)
-    );
-    incircle_stream_top_logic$core$responder$records$stream$packer$all_came all_came(
-        .d(all_came$d),
-        .q(all_came$q),
-        .clock(all_came$clock)
+    incircle_stream_top_logic$core$responder$records$stream$packer$group group(
+        .clock(group$clock),
+        .starts(group$starts),
+        .count(group$count),
+        .comes(group$comes),
+        .rest(group$rest),
+        .is_last(group$is_last),
+        .ends_group(group$ends_group),
+        .all_came(group$all_came),
+        .rests(group$rests)
     );
     
     // Update code
     always @(*) begin
         is_there$clock = clock;
         filled$clock = clock;
-        number$clock = clock;
         kept$clock = clock;
-        many_are_kept$clock = clock;
         is_there$d = is_there$q;
         filled$d = filled$q;
-        number$d = number$q;
         kept$d = kept$q;
-        many_are_kept$d = many_are_kept$q;
-        left$clock = clock;
-        is_last$clock = clock;
-        all_came$clock = clock;
-        left$d = left$q;
-        is_last$d = is_last$q;
-        all_came$d = all_came$q;
-        one = 32'h1;
-        two = 32'h2;
+        number$clock = clock;
+        group$clock = clock;
         valid = is_there$q;
         beat = filled$q;
+        group$starts = starts;
+        group$count = count;
+        group$comes = comes;
+        group$rest = rest;
+        brings_rests = has_rests & group$ends_group;
+        number$reset = reset;
+        number$vertices_alone = vertices_alone;
+        number$has_short_ids = has_short_ids;
+        number$comes = comes;
+        number$is_last = group$is_last;
+        number$brings_rests = brings_rests;
+        number$all_came = group$all_came;
+        is_there$d = number$fills;
+        filled$d[(64'h40)+:(1)] = number$both;
+        filled$d[(64'h41)+:(1)] = number$last;
+        third = halves[(64'h20)+:(16)];
+        fourth = halves[(64'h30)+:(16)];
+        if (has_short_ids) begin
+            third = group$rests[(32'h0)+:(16)];
+            fourth = group$rests[(32'h10)+:(16)];
+        end
         sent = kept$q;
         kept$d[(64'h10)+:(16)] = 32'h0;
         kept$d[(64'h20)+:(16)] = 32'h0;
         kept$d[(64'h30)+:(16)] = 32'h0;
-        many_are_kept$d = 1'b0;
-        takes = comes;
-        is_there$d = comes;
-        filled$d[(64'h40)+:(1)] = 1'b1;
-        filled$d[(64'h41)+:(1)] = 1'b0;
-        case (number$q)
-            KeptHalves$Zero:
+        case (number$number)
+            KeptNumber$Zero:
                 begin
                     sent[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                    sent[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                    sent[(64'h30)+:(16)] = halves[(64'h30)+:(16)];
+                    sent[(64'h20)+:(16)] = third;
+                    sent[(64'h30)+:(16)] = fourth;
                     kept$d[(64'h0)+:(16)] = halves[(64'h40)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h50)+:(16)];
-                    number$d = KeptHalves$Two;
                     if (vertices_alone) begin
-                        is_there$d = 1'b0;
                         kept$d[(64'h0)+:(16)] = halves[(64'h0)+:(16)];
                         kept$d[(64'h10)+:(16)] = halves[(64'h10)+:(16)];
-                        kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Three;
+                        if (~has_short_ids) begin
+                            kept$d[(64'h20)+:(16)] = halves[(64'h20)+:(16)];
+                        end
                     end
                 end
-            KeptHalves$One:
+            KeptNumber$One:
                 begin
                     sent[(64'h10)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h20)+:(16)] = halves[(64'h10)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h20)+:(16)];
-                    filled$d[(64'h41)+:(1)] = is_last$q;
-                    number$d = KeptHalves$Zero;
                 end
-            KeptHalves$Two:
+            KeptNumber$Two:
                 begin
                     sent[(64'h20)+:(16)] = halves[(64'h0)+:(16)];
                     sent[(64'h30)+:(16)] = halves[(64'h10)+:(16)];
-                    kept$d[(64'h0)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$One;
+                    kept$d[(64'h0)+:(16)] = third;
+                    if (has_short_ids | (~vertices_alone)) begin
+                        kept$d[(64'h10)+:(16)] = fourth;
+                    end
                     if (~vertices_alone) begin
-                        kept$d[(64'h10)+:(16)] = halves[(64'h30)+:(16)];
                         kept$d[(64'h20)+:(16)] = halves[(64'h40)+:(16)];
                         kept$d[(64'h30)+:(16)] = halves[(64'h50)+:(16)];
-                        many_are_kept$d = 1'b1;
-                        number$d = KeptHalves$Rest;
                     end
                 end
-            KeptHalves$Three:
+            KeptNumber$Three:
                 begin
                     sent[(64'h30)+:(16)] = halves[(64'h0)+:(16)];
                     kept$d[(64'h0)+:(16)] = halves[(64'h10)+:(16)];
                     kept$d[(64'h10)+:(16)] = halves[(64'h20)+:(16)];
-                    number$d = KeptHalves$Two;
                 end
             default:
                 begin
-                    takes = 1'b1;
-                    is_there$d = 1'b1;
-                    filled$d[(64'h40)+:(1)] = many_are_kept$q;
-                    filled$d[(64'h41)+:(1)] = all_came$q;
-                    number$d = KeptHalves$Zero;
                 end
         endcase
         sent_bits = sent;
         filled$d[(64'h0)+:(32)] = sent_bits[(32'h0)+:(32)];
         filled$d[(64'h20)+:(32)] = sent_bits[(32'h20)+:(32)];
-        if (comes) begin
-            left$d = left$q - one;
-            is_last$d = left$q == two;
-            all_came$d = is_last$q;
-            if (is_last$q & (number$q != KeptHalves$One)) begin
-                number$d = KeptHalves$Rest;
-            end
-        end
-        if (~takes) begin
-            number$d = number$q;
+        if (~number$moves) begin
             kept$d = kept$q;
-        end
-        if (starts) begin
-            left$d = count;
-            is_last$d = count == one;
         end
         if (reset) begin
             is_there$d = 1'b0;
-            number$d = KeptHalves$Zero;
         end
     end
     
 endmodule // incircle_stream_top_logic$core$responder$records$stream$packer
-
-
-module incircle_stream_top_logic$core$responder$records$stream$packer$all_came(d,q,clock);
-    
-    // Module arguments
-    input wire  d;
-    output reg  q;
-    input wire  clock;
-    
-    // Update code (custom)
-    initial begin
-       q = 1'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$all_came
 
 
 module incircle_stream_top_logic$core$responder$records$stream$packer$filled(d,q,clock);
@@ -25315,7 +25527,157 @@ module incircle_stream_top_logic$core$responder$records$stream$packer$filled(d,q
 endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$filled
 
 
-module incircle_stream_top_logic$core$responder$records$stream$packer$is_last(d,q,clock);
+module incircle_stream_top_logic$core$responder$records$stream$packer$group(clock,starts,count,comes,rest,is_last,ends_group,all_came,rests);
+    
+    // Module arguments
+    input wire  clock;
+    input wire  starts;
+    input wire  [14:0] count;
+    input wire  comes;
+    input wire  [3:0] rest;
+    output reg  is_last;
+    output reg  ends_group;
+    output reg  all_came;
+    output reg  [31:0] rests;
+    
+    // Stub signals
+    reg  [14:0] left$d;
+    wire  [14:0] left$q;
+    reg  left$clock;
+    reg  one_is_left$d;
+    wire  one_is_left$q;
+    reg  one_is_left$clock;
+    reg  none_is_left$d;
+    wire  none_is_left$q;
+    reg  none_is_left$clock;
+    reg  [2:0] place$d;
+    wire  [2:0] place$q;
+    reg  place$clock;
+    reg  [31:0] earlier$d;
+    wire  [31:0] earlier$q;
+    reg  earlier$clock;
+    
+    // Local signals
+    reg  [31:0] together;
+    reg  ends;
+    reg  [14:0] one;
+    reg  [14:0] two;
+    reg  [2:0] one_place;
+    reg  [2:0] last_place;
+    reg  [31:0] rest_bits;
+    reg  [31:0] rest_shift;
+    
+    // Sub module instances
+    incircle_stream_top_logic$core$responder$records$stream$packer$group$left left(
+        .d(left$d),
+        .q(left$q),
+        .clock(left$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$stream$packer$group$one_is_left one_is_left(
+        .d(one_is_left$d),
+        .q(one_is_left$q),
+        .clock(one_is_left$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$stream$packer$group$none_is_left none_is_left(
+        .d(none_is_left$d),
+        .q(none_is_left$q),
+        .clock(none_is_left$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$stream$packer$group$place place(
+        .d(place$d),
+        .q(place$q),
+        .clock(place$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$stream$packer$group$earlier earlier(
+        .d(earlier$d),
+        .q(earlier$q),
+        .clock(earlier$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        left$clock = clock;
+        one_is_left$clock = clock;
+        none_is_left$clock = clock;
+        place$clock = clock;
+        earlier$clock = clock;
+        left$d = left$q;
+        one_is_left$d = one_is_left$q;
+        none_is_left$d = none_is_left$q;
+        place$d = place$q;
+        earlier$d = earlier$q;
+        one = 32'h1;
+        two = 32'h2;
+        one_place = 32'h1;
+        last_place = 32'h7;
+        rest_bits = 32'h4;
+        rest_shift = 32'h1c;
+        is_last = one_is_left$q;
+        all_came = none_is_left$q;
+        ends = one_is_left$q | (place$q == last_place);
+        ends_group = ends;
+        together = (earlier$q >> rest_bits) | (((rest) & 32'hffffffff) << rest_shift);
+        rests = together;
+        if (comes) begin
+            left$d = left$q - one;
+            one_is_left$d = left$q == two;
+            none_is_left$d = one_is_left$q;
+            place$d = place$q + one_place;
+            earlier$d = together;
+            if (ends) begin
+                earlier$d = 32'h0;
+            end
+        end
+        if (starts) begin
+            left$d = count;
+            one_is_left$d = count == one;
+            place$d = 32'h0;
+            earlier$d = 32'h0;
+        end
+    end
+    
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$group
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$group$earlier(d,q,clock);
+    
+    // Module arguments
+    input wire  [31:0] d;
+    output reg  [31:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 32'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$group$earlier
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$group$left(d,q,clock);
+    
+    // Module arguments
+    input wire  [14:0] d;
+    output reg  [14:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 15'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$group$left
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$group$none_is_left(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -25331,7 +25693,45 @@ module incircle_stream_top_logic$core$responder$records$stream$packer$is_last(d,
        q <= d;
     end
           
-endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$is_last
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$group$none_is_left
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$group$one_is_left(d,q,clock);
+    
+    // Module arguments
+    input wire  d;
+    output reg  q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 1'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$group$one_is_left
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$group$place(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Update code (custom)
+    initial begin
+       q = 3'h0;
+    end
+    
+    always @(posedge clock) begin
+       q <= d;
+    end
+          
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$group$place
 
 
 module incircle_stream_top_logic$core$responder$records$stream$packer$is_there(d,q,clock);
@@ -25372,26 +25772,149 @@ module incircle_stream_top_logic$core$responder$records$stream$packer$kept(d,q,c
 endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$kept
 
 
-module incircle_stream_top_logic$core$responder$records$stream$packer$left(d,q,clock);
+module incircle_stream_top_logic$core$responder$records$stream$packer$number(clock,reset,vertices_alone,has_short_ids,comes,is_last,brings_rests,all_came,number,fills,moves,both,last);
     
     // Module arguments
-    input wire  [14:0] d;
-    output reg  [14:0] q;
     input wire  clock;
+    input wire  reset;
+    input wire  vertices_alone;
+    input wire  has_short_ids;
+    input wire  comes;
+    input wire  is_last;
+    input wire  brings_rests;
+    input wire  all_came;
+    output reg  [2:0] number;
+    output reg  fills;
+    output reg  moves;
+    output reg  both;
+    output reg  last;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
+    
+    // Stub signals
+    reg  [2:0] kept$d;
+    wire  [2:0] kept$q;
+    reg  kept$clock;
+    reg  many_are_kept$d;
+    wire  many_are_kept$q;
+    reg  many_are_kept$clock;
+    
+    // Local signals
+    reg  [2:0] leaves;
+    reg  leaves_none;
+    reg  is_rest;
+    reg  takes;
+    
+    // Sub module instances
+    incircle_stream_top_logic$core$responder$records$stream$packer$number$kept kept(
+        .d(kept$d),
+        .q(kept$q),
+        .clock(kept$clock)
+    );
+    incircle_stream_top_logic$core$responder$records$stream$packer$number$many_are_kept many_are_kept(
+        .d(many_are_kept$d),
+        .q(many_are_kept$q),
+        .clock(many_are_kept$clock)
+    );
+    
+    // Update code
+    always @(*) begin
+        kept$clock = clock;
+        many_are_kept$clock = clock;
+        kept$d = kept$q;
+        many_are_kept$d = many_are_kept$q;
+        number = kept$q;
+        is_rest = kept$q == KeptNumber$Rest;
+        takes = comes | is_rest;
+        moves = takes;
+        fills = takes;
+        leaves = KeptNumber$Zero;
+        case (kept$q)
+            KeptNumber$Zero:
+                begin
+                    if (~brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (vertices_alone) begin
+                        fills = comes & brings_rests;
+                        if (~has_short_ids) begin
+                            leaves = KeptNumber$Three;
+                        end
+                    end
+                end
+            KeptNumber$Two:
+                begin
+                    if (~has_short_ids) begin
+                        leaves = KeptNumber$One;
+                    end
+                    if (brings_rests) begin
+                        leaves = KeptNumber$Two;
+                    end
+                    if (~vertices_alone) begin
+                        leaves = KeptNumber$Rest;
+                    end
+                end
+            KeptNumber$Three:
+                begin
+                    leaves = KeptNumber$Two;
+                end
+            default:
+                begin
+                end
+        endcase
+        leaves_none = leaves == KeptNumber$Zero;
+        both = many_are_kept$q | (~is_rest);
+        last = is_last & leaves_none;
+        if (is_rest) begin
+            last = all_came;
+        end
+        if (takes) begin
+            many_are_kept$d = (leaves == KeptNumber$Three) | (leaves == KeptNumber$Rest);
+            kept$d = leaves;
+            if (is_last & (~leaves_none)) begin
+                kept$d = KeptNumber$Rest;
+            end
+        end
+        if (reset) begin
+            kept$d = KeptNumber$Zero;
+        end
+    end
+    
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$number
+
+
+module incircle_stream_top_logic$core$responder$records$stream$packer$number$kept(d,q,clock);
+    
+    // Module arguments
+    input wire  [2:0] d;
+    output reg  [2:0] q;
+    input wire  clock;
+    
+    // Enums
+    localparam KeptNumber$Zero = 0;
+    localparam KeptNumber$One = 1;
+    localparam KeptNumber$Two = 2;
+    localparam KeptNumber$Three = 3;
+    localparam KeptNumber$Rest = 4;
     
     // Update code (custom)
     initial begin
-       q = 15'h0;
+       q = 64'h0;
     end
     
     always @(posedge clock) begin
        q <= d;
     end
           
-endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$left
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$number$kept
 
 
-module incircle_stream_top_logic$core$responder$records$stream$packer$many_are_kept(d,q,clock);
+module incircle_stream_top_logic$core$responder$records$stream$packer$number$many_are_kept(d,q,clock);
     
     // Module arguments
     input wire  d;
@@ -25407,33 +25930,7 @@ module incircle_stream_top_logic$core$responder$records$stream$packer$many_are_k
        q <= d;
     end
           
-endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$many_are_kept
-
-
-module incircle_stream_top_logic$core$responder$records$stream$packer$number(d,q,clock);
-    
-    // Module arguments
-    input wire  [2:0] d;
-    output reg  [2:0] q;
-    input wire  clock;
-    
-    // Enums
-    localparam KeptHalves$Zero = 0;
-    localparam KeptHalves$One = 1;
-    localparam KeptHalves$Two = 2;
-    localparam KeptHalves$Three = 3;
-    localparam KeptHalves$Rest = 4;
-    
-    // Update code (custom)
-    initial begin
-       q = 64'h0;
-    end
-    
-    always @(posedge clock) begin
-       q <= d;
-    end
-          
-endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$number
+endmodule // incircle_stream_top_logic$core$responder$records$stream$packer$number$many_are_kept
 
 
 module incircle_stream_top_logic$core$responder$records$stream$queue(clock,reset,push,push_data,pop,valid,data);
@@ -25767,8 +26264,8 @@ module incircle_stream_top_logic$core$responder$words(clock,reset,prepares,start
     reg  [6:0] following$d;
     wire  [6:0] following$q;
     reg  following$clock;
-    reg  [31:0] left$d;
-    wire  [31:0] left$q;
+    reg  [7:0] left$d;
+    wire  [7:0] left$q;
     reg  left$clock;
     reg  is_last$d;
     wire  is_last$q;
@@ -25783,8 +26280,9 @@ module incircle_stream_top_logic$core$responder$words(clock,reset,prepares,start
     // Local signals
     reg  is_choosing;
     reg  [31:0] no_word;
-    reg  [31:0] one;
-    reg  [31:0] two;
+    reg  [7:0] words;
+    reg  [7:0] one;
+    reg  [7:0] two;
     reg  [6:0] one_word;
     
     // Sub module instances
@@ -25837,6 +26335,7 @@ module incircle_stream_top_logic$core$responder$words(clock,reset,prepares,start
         one = 32'h1;
         two = 32'h2;
         one_word = 32'h1;
+        words = length[(32'h0)+:(8)];
         index = loaded$q;
         index_ahead = following$q;
         valid = is_chosen$q;
@@ -25862,8 +26361,8 @@ module incircle_stream_top_logic$core$responder$words(clock,reset,prepares,start
         end
         if (starts) begin
             loaded$d = 32'h0;
-            left$d = length;
-            is_last$d = length == one;
+            left$d = words;
+            is_last$d = words == one;
         end
         if (reset) begin
             waited$d = 1'b0;
@@ -25934,13 +26433,13 @@ endmodule // incircle_stream_top_logic$core$responder$words$is_last
 module incircle_stream_top_logic$core$responder$words$left(d,q,clock);
     
     // Module arguments
-    input wire  [31:0] d;
-    output reg  [31:0] q;
+    input wire  [7:0] d;
+    output reg  [7:0] q;
     input wire  clock;
     
     // Update code (custom)
     initial begin
-       q = 32'h0;
+       q = 8'h0;
     end
     
     always @(posedge clock) begin
@@ -27363,7 +27862,7 @@ module incircle_stream_top_logic$link$bus$registers$identity(index,value,is_know
     localparam  coord_bits = 32'h10;
     localparam  capacity = 32'h400;
     localparam  contexts = 32'h110;
-    localparam  ring_capacity = 32'h20;
+    localparam  ring_capacity = 32'h20020;
     localparam  beat_bits = 32'h40;
     localparam  fifo_beats = 32'h200;
     

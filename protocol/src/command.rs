@@ -4,6 +4,7 @@ use crate::counters::{COUNTER_WORDS, LATENCY_BUCKETS};
 use crate::layout::{Layout, IDENTITY_WORDS, INSERT_REPORT_WORDS};
 use crate::living::RunKind;
 use crate::opcode::Opcode;
+use crate::short_ids::ShortIds;
 use crate::status::Status;
 
 /// A command word that does nothing and has no answer. Links whose beats hold several words fill the last beat with it.
@@ -166,12 +167,22 @@ pub const COMMAND_HEAD_WORDS: usize = 3;
 pub enum Command<P> {
     Hello,
     Clear(Clear),
-    Insert { count: u32, points: P },
+    Insert {
+        count: u32,
+        points: P,
+    },
     Read(RecordRange),
     Counters,
     Latencies,
     Triangles(RecordRange),
-    Run { kind: RunKind, count: u32, items: P },
+    /// A `Triangles` whose answer has ids of fewer bits, from a device with the feature
+    /// [`FEATURE_SHORT_IDS`](crate::FEATURE_SHORT_IDS).
+    ShortTriangles(RecordRange, ShortIds),
+    Run {
+        kind: RunKind,
+        count: u32,
+        items: P,
+    },
 }
 
 /// A range of triangle records with consecutive ids.
@@ -192,7 +203,7 @@ impl<P> Command<P> {
             Self::Read(_) => Opcode::Read,
             Self::Counters => Opcode::Counters,
             Self::Latencies => Opcode::Latencies,
-            Self::Triangles(_) => Opcode::Triangles,
+            Self::Triangles(_) | Self::ShortTriangles(..) => Opcode::Triangles,
             Self::Run { kind, .. } => kind.opcode(),
         }
     }
@@ -207,6 +218,7 @@ impl<P> Command<P> {
             Self::Counters => Command::Counters,
             Self::Latencies => Command::Latencies,
             Self::Triangles(range) => Command::Triangles(*range),
+            Self::ShortTriangles(range, ids) => Command::ShortTriangles(*range, *ids),
             Self::Run { kind, count, .. } => Command::Run { kind: *kind, count: *count, items: () },
         }
     }
@@ -221,6 +233,7 @@ impl<P> Command<P> {
             Self::Counters => Command::Counters,
             Self::Latencies => Command::Latencies,
             Self::Triangles(range) => Command::Triangles(range),
+            Self::ShortTriangles(range, ids) => Command::ShortTriangles(range, ids),
             Self::Run { kind, count, items } => Command::Run { kind, count, items: form(items) },
         }
     }
@@ -232,6 +245,7 @@ impl<P> Command<P> {
             Self::Clear(clear) => ([clear.word(), 0, 0], 1),
             Self::Insert { count, .. } | Self::Run { count, .. } => ([word, *count, 0], 2),
             Self::Read(range) | Self::Triangles(range) => ([word, range.first, range.count], 3),
+            Self::ShortTriangles(range, ids) => ([word | ids.word_bits(), range.first, range.count], 3),
             Self::Hello | Self::Counters | Self::Latencies => ([word, 0, 0], 1),
         }
     }
@@ -256,6 +270,7 @@ impl<P> Command<P> {
             Self::Counters => COUNTER_WORDS as u64,
             Self::Latencies => LATENCY_BUCKETS as u64,
             Self::Triangles(range) => layout.packed_words(range.count),
+            Self::ShortTriangles(range, ids) => ids.words(range.count),
             Self::Run { kind, count, .. } => *count as u64 * kind.part_words() as u64,
         }
     }
@@ -343,7 +358,10 @@ impl CommandReader {
             (Opcode::Latencies, _) => Command::Latencies,
             (Opcode::Insert, &[count]) => Command::Insert { count, points: () },
             (Opcode::Read, &[first, count]) => Command::Read(RecordRange { first, count }),
-            (Opcode::Triangles, &[first, count]) => Command::Triangles(RecordRange { first, count }),
+            (Opcode::Triangles, &[first, count]) => match ShortIds::of_word(word) {
+                Some(ids) => Command::ShortTriangles(RecordRange { first, count }, ids),
+                None => Command::Triangles(RecordRange { first, count }),
+            },
             (Opcode::Insert | Opcode::Read | Opcode::Triangles, _) => return None,
             (_, &[count]) => Command::Run { kind: RunKind::of(opcode)?, count, items: () },
             _ => return None,

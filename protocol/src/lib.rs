@@ -18,6 +18,7 @@ mod frame;
 mod layout;
 mod living;
 mod opcode;
+mod short_ids;
 mod status;
 mod stream;
 
@@ -49,6 +50,7 @@ pub use layout::{
 };
 pub use living::{part_head, part_item, part_outcome, Located, RunKind, FEATURE_RUNS, ITEM_NUMBERS, OUTCOME_SHIFT};
 pub use opcode::Opcode;
+pub use short_ids::{ShortIds, FEATURE_SHORT_IDS, TRIANGLES_SHORT, TRIANGLES_TWELVE};
 pub use status::{Outcome, Status};
 pub use stream::{
     StreamRegister, BEAT_BITS, CONTROL_RESET, ERROR_ANSWER_STATUS, ERROR_PARTIAL_BEAT, REGISTER_SPACE,

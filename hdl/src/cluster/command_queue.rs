@@ -7,7 +7,7 @@
 
 use crate::commands::types::Word;
 use crate::commands::CommandSource;
-use crate::leaf::Fifo;
+use crate::leaf::DeepFifo;
 use crate::prelude::*;
 use incircle_protocol::ENGINE_QUEUE_WORDS;
 
@@ -22,18 +22,18 @@ pub struct CommandQueue {
     pub has_room: Signal<Out, Bit>,
     pub command: CommandSource,
     /// Number of words that wait.
-    waiting: DFF<Bits<5>>,
+    waiting: DFF<Bits<9>>,
     /// The word that came at the edge before: a register keeps the router's logic away from the engine's.
     came: DFF<Bit>,
     newest: DFF<Word>,
-    words: Fifo<4, 32>,
+    words: DeepFifo<8, 32>,
     takes: Signal<Local, Bit>,
-    one: Signal<Local, Bits<5>>,
-    all: Signal<Local, Bits<5>>,
+    one: Signal<Local, Bits<9>>,
+    all: Signal<Local, Bits<9>>,
 }
 
 // The kernel holds the number as a literal, because rust-hdl allows no constants there.
-const _: () = assert!(ENGINE_QUEUE_WORDS == 16, "the FIFO of this block has as many words as the protocol says");
+const _: () = assert!(ENGINE_QUEUE_WORDS == 256, "the FIFO of this block has as many words as the protocol says");
 
 impl Logic for CommandQueue {
     #[hdl_gen]
@@ -41,7 +41,7 @@ impl Logic for CommandQueue {
         dff_setup!(self, clock, waiting, came, newest);
         clock!(self, clock, words);
         self.one.next = 1.into();
-        self.all.next = 16.into();
+        self.all.next = 256.into();
         self.has_room.next = self.waiting.q.val() != self.all.val();
         self.came.d.next = self.push.val();
         self.newest.d.next = self.word.val();

@@ -30,14 +30,14 @@ pub struct EngineSlot {
     pub write: Signal<Out, Write>,
     core: Core,
     queue: CommandQueue,
-    owed: DFF<Bits<5>>,
+    owed: DFF<Bits<9>>,
     begins: Signal<Local, Bit>,
     ends: Signal<Local, Bit>,
-    one: Signal<Local, Bits<5>>,
+    one: Signal<Local, Bits<9>>,
 }
 
 // Beside the commands in the queue, one may be at work and one be answered.
-const _: () = assert!(ENGINE_QUEUE_WORDS + 2 < 1 << 5, "5 bits hold the number of answers that an engine may owe");
+const _: () = assert!(ENGINE_QUEUE_WORDS + 2 < 1 << 9, "9 bits hold the number of answers that an engine may owe");
 
 impl EngineSlot {
     /// The slot of the engine of this number on a chip of a configuration.

@@ -1,15 +1,14 @@
 //! Computes the first two words of an answer, status and length, in three ranks of registers.
 //!
-//! 1. A read-out is in range if its last record exists. The first rank adds up the end of the range and the words of
-//!    its records, the second compares the end, and the third chooses. A `Read` has as many words as the first rank
-//!    says; a `Triangles` has half as many, rounded up.
-//! 2. `request.opcode` and `clearing` do not change between the command and the end of its answer, so they enter
-//!    at the last rank.
+//! 1. [`ReadRange`] has the first two ranks of a read-out. The third rank chooses by the opcode.
+//! 2. `request.opcode`, the form of the ids and `clearing` do not change between the command and the end of its answer,
+//!    so they need not pass all ranks.
 //! 3. The low half of the header names the engine and the job. Neither changes while an answer is put together, so they
 //!    pass no register.
 //!
 //! Latency: 3 clocks from `request.first` and `request.count` to `head`.
 
+use super::read_range::ReadRange;
 use super::types::{Clearing, Head, RecordCount, Request, Word};
 use crate::prelude::*;
 use incircle_protocol::{Opcode, Status, COUNTER_WORDS, IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS};
@@ -31,26 +30,14 @@ pub struct AnswerHead {
     /// The core has refused points since the last `Clear`.
     pub some_refused: Signal<In, Bit>,
     pub head: Signal<Out, Head>,
-    /// Registers of the first rank.
-    range_end: DFF<Bits<33>>,
-    range_bound: DFF<RecordCount>,
-    triple: DFF<Word>,
-    counts_none: DFF<Bit>,
+    range: ReadRange,
+    /// Status of an `Insert`, in registers of the first two ranks.
     insert_status: DFF<Bits<3>>,
-    /// Registers of the second rank.
-    is_outside: DFF<Bit>,
-    read_length: DFF<Word>,
-    packed_length: DFF<Word>,
-    reads_none: DFF<Bit>,
     report_status: DFF<Bits<3>>,
     /// Registers of the third rank.
     answer_status: DFF<Bits<3>>,
-    answer_length: DFF<Word>,
+    answer_length: DFF<Bits<17>>,
     has_none: DFF<Bit>,
-    wide_first: Signal<Local, Bits<33>>,
-    wide_count: Signal<Local, Bits<33>>,
-    wide_bound: Signal<Local, Bits<33>>,
-    double_count: Signal<Local, Word>,
     status: Signal<Local, Word>,
     shifted_status: Signal<Local, Word>,
     wide_opcode: Signal<Local, Word>,
@@ -58,15 +45,12 @@ pub struct AnswerHead {
     wide_engine: Signal<Local, Word>,
     shifted_engine: Signal<Local, Word>,
     job: Signal<Local, Word>,
-    none: Signal<Local, Word>,
-    one: Signal<Local, Word>,
     status_shift: Signal<Local, Word>,
     opcode_shift: Signal<Local, Word>,
     engine_shift: Signal<Local, Word>,
     read_code: Signal<Local, Bits<8>>,
     packed_code: Signal<Local, Bits<8>>,
     packs: Signal<Local, Bit>,
-    rounded: Signal<Local, Word>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
@@ -94,25 +78,16 @@ const _: () = assert!(
 impl Logic for AnswerHead {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, range_end, range_bound, triple, counts_none, insert_status);
-        dff_setup!(self, clock, is_outside, read_length, packed_length, reads_none, report_status);
-        dff_setup!(self, clock, answer_status, answer_length, has_none);
-        self.none.next = 0.into();
-        self.one.next = 1.into();
+        dff_setup!(self, clock, insert_status, report_status, answer_status, answer_length, has_none);
+        clock!(self, clock, range);
         self.status_shift.next = 16.into();
         self.opcode_shift.next = 24.into();
         self.engine_shift.next = 8.into();
         self.read_code.next = 4.into();
         self.packed_code.next = 7.into();
+        self.range.request.next = self.request.val();
+        self.range.records.next = self.records.val();
 
-        // The first rank has the additions alone, because a sum and its comparison in one clock would be too slow.
-        self.wide_first.next = bit_cast::<33, 32>(self.request.val().first);
-        self.wide_count.next = bit_cast::<33, 32>(self.request.val().count);
-        self.range_end.d.next = self.wide_first.val() + self.wide_count.val();
-        self.range_bound.d.next = self.records.val();
-        self.double_count.next = self.request.val().count << self.one.val();
-        self.triple.d.next = self.double_count.val() + self.request.val().count;
-        self.counts_none.d.next = self.request.val().count == self.none.val();
         self.insert_status.d.next = 0.into();
         if self.some_refused.val() {
             self.insert_status.d.next = 4.into();
@@ -124,14 +99,6 @@ impl Logic for AnswerHead {
             self.insert_status.d.next = 6.into();
         }
 
-        // The second rank has the comparison. `Triangles` packs two ids into a word, so its length is halved
-        // and rounded up here.
-        self.wide_bound.next = bit_cast::<33, 15>(self.range_bound.q.val());
-        self.is_outside.d.next = self.range_end.q.val() > self.wide_bound.val();
-        self.read_length.d.next = self.triple.q.val();
-        self.rounded.next = self.triple.q.val() + self.one.val();
-        self.packed_length.d.next = self.rounded.val() >> self.one.val();
-        self.reads_none.d.next = self.counts_none.q.val();
         self.report_status.d.next = self.insert_status.q.val();
 
         // The third rank needs the opcode only to choose.
@@ -153,9 +120,9 @@ impl Logic for AnswerHead {
                 self.answer_status.d.next = self.report_status.q.val();
             }
             4 => {
-                self.answer_length.d.next = self.read_length.q.val();
-                self.has_none.d.next = self.reads_none.q.val();
-                if self.is_outside.q.val() {
+                self.answer_length.d.next = self.range.whole_length.val();
+                self.has_none.d.next = self.range.has_none.val();
+                if self.range.is_outside.val() {
                     self.answer_status.d.next = 2.into();
                     self.answer_length.d.next = 0.into();
                     self.has_none.d.next = true;
@@ -168,9 +135,9 @@ impl Logic for AnswerHead {
                 self.answer_length.d.next = 128.into();
             }
             7 => {
-                self.answer_length.d.next = self.packed_length.q.val();
-                self.has_none.d.next = self.reads_none.q.val();
-                if self.is_outside.q.val() {
+                self.answer_length.d.next = self.range.packed_length.val();
+                self.has_none.d.next = self.range.has_none.val();
+                if self.range.is_outside.val() {
                     self.answer_status.d.next = 2.into();
                     self.answer_length.d.next = 0.into();
                     self.has_none.d.next = true;
@@ -183,8 +150,10 @@ impl Logic for AnswerHead {
         }
         self.packs.next = self.request.val().opcode == self.packed_code.val();
         self.head.next.is_packed = self.packs.val();
+        self.head.next.has_short_ids = self.request.val().has_short_ids;
+        self.head.next.has_rests = self.request.val().has_rests;
         self.head.next.is_read = self.packs.val() | (self.request.val().opcode == self.read_code.val());
-        self.head.next.length = self.answer_length.q.val();
+        self.head.next.length = bit_cast::<32, 17>(self.answer_length.q.val());
         self.head.next.is_empty = self.has_none.q.val();
         self.status.next = bit_cast::<32, 3>(self.answer_status.q.val());
         self.shifted_status.next = self.status.val() << self.status_shift.val();

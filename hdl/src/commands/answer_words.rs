@@ -8,7 +8,9 @@
 
 use super::types::{RecordCount, Tally, VertexCount, Word};
 use crate::prelude::*;
-use incircle_protocol::{Opcode, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, MAGIC, PROTOCOL_VERSION};
+use incircle_protocol::{
+    Opcode, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAGIC, PROTOCOL_VERSION,
+};
 
 #[derive(LogicBlock, Default)]
 pub struct AnswerWords {
@@ -42,6 +44,7 @@ pub struct AnswerWords {
     wide_engines: Signal<Local, Word>,
     shifted_engines: Signal<Local, Word>,
     engines_shift: Signal<Local, Word>,
+    features: Signal<Local, Word>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
@@ -53,7 +56,8 @@ const _: () = assert!(
         && PROTOCOL_VERSION == 0x0002_0000
         && CORE_VERSION == 0x0000_0300
         && CORE_COORD_BITS == 16
-        && ENGINES_SHIFT == 8,
+        && ENGINES_SHIFT == 8
+        && FEATURE_SHORT_IDS << FEATURES_SHIFT == 0x0002_0000,
     "the words of this block follow the protocol"
 );
 
@@ -64,6 +68,7 @@ impl Logic for AnswerWords {
         self.word.next = self.chosen.q.val();
         self.place.next = self.index.val().get_bits::<3>(0);
         self.engines_shift.next = 8.into();
+        self.features.next = 0x0002_0000.into();
         self.wide_contexts.next = bit_cast::<32, 5>(self.contexts.val());
         self.wide_engines.next = bit_cast::<32, 8>(self.engines.val());
         self.shifted_engines.next = self.wide_engines.val() << self.engines_shift.val();
@@ -93,7 +98,7 @@ impl Logic for AnswerWords {
                 self.report.d.next = 0.into();
             }
             _ => {
-                self.identity.d.next = bit_cast::<32, 7>(self.ring_capacity.val());
+                self.identity.d.next = bit_cast::<32, 7>(self.ring_capacity.val()) | self.features.val();
                 self.report.d.next = 0.into();
             }
         }

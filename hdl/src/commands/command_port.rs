@@ -29,7 +29,7 @@ use super::point_slot::PointSlot;
 use super::types::{Activity, AnswerProgress, Clearing, CommandState, Request, Tally, VertexCount, Word};
 use crate::engine::{Arrival, Deal, EngineState};
 use crate::prelude::*;
-use incircle_protocol::{Opcode, PADDING};
+use incircle_protocol::{Opcode, PADDING, TRIANGLES_SHORT, TRIANGLES_TWELVE};
 
 #[derive(LogicBlock, Default)]
 pub struct CommandPort {
@@ -73,7 +73,12 @@ pub struct CommandPort {
 
 // The kernel holds the opcodes as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
-    Opcode::Insert as u8 == 3 && Opcode::Read as u8 == 4 && Opcode::Triangles as u8 == 7 && PADDING == 0,
+    Opcode::Insert as u8 == 3
+        && Opcode::Read as u8 == 4
+        && Opcode::Triangles as u8 == 7
+        && PADDING == 0
+        && TRIANGLES_SHORT == 1 << 3
+        && TRIANGLES_TWELVE == 1 << 2,
     "the opcodes of this block follow the protocol"
 );
 
@@ -133,6 +138,8 @@ impl Logic for CommandPort {
             CommandState::Command => {
                 if self.gate.taken.val().is_command {
                     self.held.d.next.opcode = self.code.val();
+                    self.held.d.next.has_short_ids = self.command.data.val().get_bit(3);
+                    self.held.d.next.has_rests = self.command.data.val().get_bit(2);
                     self.state.d.next = CommandState::Answer;
                     if self.code.val() == self.insert_code.val() {
                         self.state.d.next = CommandState::Count;

@@ -5,7 +5,8 @@
 //! command words -> CommandPort -> vertex memory, engine
 //! answers <- Responder <- RecordReads <- triangle memory
 //! ```
-//! `RecordHalves`, `RecordPacker` and `RecordStream` make the words of a `Read` and of a `Triangles`.
+//! `RecordHalves`, `RecordGroup`, `KeptHalves`, `RecordPacker` and `RecordStream` make the words of a `Read` and of a
+//! `Triangles`.
 
 mod answer_head;
 mod answer_words;
@@ -13,8 +14,11 @@ mod channels;
 mod clear_command;
 mod command_gate;
 mod command_port;
+mod kept_halves;
 mod payload_words;
 mod point_slot;
+mod read_range;
+mod record_group;
 mod record_halves;
 mod record_packer;
 mod record_reads;
@@ -28,10 +32,13 @@ pub use channels::{AnswerSink, AnswerSource, CommandSink, CommandSource};
 pub use clear_command::ClearCommand;
 pub use command_gate::CommandGate;
 pub use command_port::CommandPort;
+pub use kept_halves::{KeptHalves, KeptNumber};
 pub use payload_words::PayloadWords;
 pub use point_slot::PointSlot;
+pub use read_range::ReadRange;
+pub use record_group::RecordGroup;
 pub use record_halves::RecordHalves;
-pub use record_packer::{KeptHalves, RecordPacker};
+pub use record_packer::RecordPacker;
 pub use record_reads::RecordReads;
 pub use record_stream::RecordStream;
 pub use responder::{AnswerState, Responder};

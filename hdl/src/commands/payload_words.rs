@@ -14,7 +14,7 @@ pub struct PayloadWords {
     /// A reset drops the word.
     pub reset: Signal<In, Bit>,
     /// An answer is about to begin (`prepares`); two clocks later it begins (`starts`) with a
-    /// payload of `length` words.
+    /// payload of `length` words, at most 255.
     pub prepares: Signal<In, Bit>,
     pub starts: Signal<In, Bit>,
     pub length: Signal<In, Word>,
@@ -32,7 +32,7 @@ pub struct PayloadWords {
     pub takes: Signal<In, Bit>,
     loaded: DFF<WordIndex>,
     following: DFF<WordIndex>,
-    left: DFF<Word>,
+    left: DFF<Bits<8>>,
     /// One word of the payload is left.
     is_last: DFF<Bit>,
     /// The first of the two clocks in which a word is chosen has passed.
@@ -40,8 +40,9 @@ pub struct PayloadWords {
     is_chosen: DFF<Bit>,
     is_choosing: Signal<Local, Bit>,
     no_word: Signal<Local, Word>,
-    one: Signal<Local, Word>,
-    two: Signal<Local, Word>,
+    words: Signal<Local, Bits<8>>,
+    one: Signal<Local, Bits<8>>,
+    two: Signal<Local, Bits<8>>,
     one_word: Signal<Local, WordIndex>,
 }
 
@@ -53,6 +54,7 @@ impl Logic for PayloadWords {
         self.one.next = 1.into();
         self.two.next = 2.into();
         self.one_word.next = 1.into();
+        self.words.next = self.length.val().get_bits::<8>(0);
         self.index.next = self.loaded.q.val();
         self.index_ahead.next = self.following.q.val();
         self.valid.next = self.is_chosen.q.val();
@@ -78,8 +80,8 @@ impl Logic for PayloadWords {
         }
         if self.starts.val() {
             self.loaded.d.next = 0.into();
-            self.left.d.next = self.length.val();
-            self.is_last.d.next = self.length.val() == self.one.val();
+            self.left.d.next = self.words.val();
+            self.is_last.d.next = self.words.val() == self.one.val();
         }
         if self.reset.val() {
             self.waited.d.next = false;

@@ -3,10 +3,12 @@
 //! 1. Word `k` of a record holds `v[k]` in bits 0 to 14 and `n[k]` in bits 15 to 29; bit 31 of word 0 is the lock bit.
 //!    Halves `2 k` and `2 k + 1` are the lower and the upper half of word `k`.
 //! 2. Of a payload of vertices, half `k` is `v[k]`, and only the first three halves count.
-//! 3. The record goes into registers straight from the memory, and the halves are made behind them, so that no path
+//! 3. With short ids, halves 0 and 1 are a word with the lower ten bits of `v[0]`, `v[1]` and `v[2]`, and with bits 11
+//!    and 10 of `v[0]` above them. The rest has bits 11 and 10 of `v[1]`, and above them those of `v[2]`.
+//! 4. The record goes into registers straight from the memory, and the halves are made behind them, so that no path
 //!    begins in the memory and ends in the answer stream.
 //!
-//! Latency: 1 clock from `record` to `halves`.
+//! Latency: 1 clock from `record` to `halves` and `rest`.
 
 use super::types::{Half, Halves};
 use crate::mesh::Record;
@@ -18,7 +20,11 @@ pub struct RecordHalves {
     pub record: Signal<In, Record>,
     /// The payload has the vertices of the records alone.
     pub vertices_alone: Signal<In, Bit>,
+    /// The payload has vertices alone, with short ids.
+    pub has_short_ids: Signal<In, Bit>,
     pub halves: Signal<Out, Halves>,
+    /// With short ids of 12 bits, what the record has beyond its first two halves.
+    pub rest: Signal<Out, Bits<4>>,
     kept: DFF<Record>,
     vertex0: Signal<Local, Half>,
     vertex1: Signal<Local, Half>,
@@ -34,6 +40,13 @@ pub struct RecordHalves {
     lock: Signal<Local, Half>,
     id_bits: Signal<Local, Half>,
     one: Signal<Local, Half>,
+    two_bits: Signal<Local, Bits<4>>,
+    four: Signal<Local, Half>,
+    six: Signal<Local, Half>,
+    ten: Signal<Local, Half>,
+    low_ten: Signal<Local, Half>,
+    low_four: Signal<Local, Half>,
+    top_two: Signal<Local, Half>,
 }
 
 impl Logic for RecordHalves {
@@ -42,6 +55,13 @@ impl Logic for RecordHalves {
         dff_setup!(self, clock, kept);
         self.id_bits.next = 15.into();
         self.one.next = 1.into();
+        self.two_bits.next = 2.into();
+        self.four.next = 4.into();
+        self.six.next = 6.into();
+        self.ten.next = 10.into();
+        self.low_ten.next = 0x03ff.into();
+        self.low_four.next = 0x000f.into();
+        self.top_two.next = 0xc000.into();
         self.kept.d.next = self.record.val();
         self.lock.next = 0.into();
         if self.kept.q.val().was_set {
@@ -67,6 +87,15 @@ impl Logic for RecordHalves {
             self.halves.next.half0 = self.vertex0.val();
             self.halves.next.half1 = self.vertex1.val();
             self.halves.next.half2 = self.vertex2.val();
+            if self.has_short_ids.val() {
+                self.halves.next.half0 =
+                    (self.vertex0.val() & self.low_ten.val()) | (self.vertex1.val() << self.ten.val());
+                self.halves.next.half1 = ((self.vertex1.val() >> self.six.val()) & self.low_four.val())
+                    | ((self.vertex2.val() & self.low_ten.val()) << self.four.val())
+                    | ((self.vertex0.val() << self.four.val()) & self.top_two.val());
+            }
         }
+        self.rest.next = bit_cast::<4, 2>(self.vertex1.val().get_bits::<2>(10))
+            | (bit_cast::<4, 2>(self.vertex2.val().get_bits::<2>(10)) << self.two_bits.val());
     }
 }

@@ -26,6 +26,9 @@ pub struct RecordReads {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone; stable from the clock before `runs` on.
     pub is_packed: Signal<In, Bit>,
+    /// Ids are short in such a payload, of 10 bits; with `has_rests`, of 12. Both are as stable as `is_packed`.
+    pub has_short_ids: Signal<In, Bit>,
+    pub has_rests: Signal<In, Bit>,
     /// The payload is being sent.
     pub runs: Signal<In, Bit>,
     /// Read the record `read_id`.
@@ -39,8 +42,10 @@ pub struct RecordReads {
     pub beat: Signal<Out, AnswerBeat>,
     /// The beat is taken at this edge; allowed only while `valid` is high.
     pub takes: Signal<In, Bit>,
-    /// `is_packed` in a register, because it chooses every bit of a beat.
+    /// The form of the payload in registers, because it chooses every bit of a beat.
     vertices_alone: DFF<Bit>,
+    ids_are_short: DFF<Bit>,
+    rests_follow: DFF<Bit>,
     record_id: DFF<TriangleId>,
     /// Number of records that have yet to be read.
     left: DFF<RecordCount>,
@@ -60,10 +65,13 @@ pub struct RecordReads {
 impl Logic for RecordReads {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, vertices_alone, record_id, left, some_are_left, is_second, pauses, is_there, head);
+        dff_setup!(self, clock, vertices_alone, ids_are_short, rests_follow);
+        dff_setup!(self, clock, record_id, left, some_are_left, is_second, pauses, is_there, head);
         clock!(self, clock, stream);
         self.one.next = 1.into();
         self.vertices_alone.d.next = self.is_packed.val();
+        self.ids_are_short.d.next = self.is_packed.val() & self.has_short_ids.val();
+        self.rests_follow.d.next = self.is_packed.val() & self.has_short_ids.val() & self.has_rests.val();
 
         self.asks.next =
             self.runs.val() & self.some_are_left.q.val() & self.stream.has_room.val() & (!self.pauses.q.val());
@@ -87,6 +95,8 @@ impl Logic for RecordReads {
         self.stream.starts.next = self.starts.val();
         self.stream.count.next = self.count.val();
         self.stream.vertices_alone.next = self.vertices_alone.q.val();
+        self.stream.has_short_ids.next = self.ids_are_short.q.val();
+        self.stream.has_rests.next = self.rests_follow.q.val();
         self.stream.comes.next = self.read_done.val();
         self.stream.record.next = self.record.val();
 

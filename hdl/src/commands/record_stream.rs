@@ -26,6 +26,9 @@ pub struct RecordStream {
     pub count: Signal<In, RecordCount>,
     /// The payload has the vertices of the records alone; stable from `starts` to the last beat.
     pub vertices_alone: Signal<In, Bit>,
+    /// The payload has vertices alone, with short ids of 10 bits; with `has_rests`, of 12. Both are as stable.
+    pub has_short_ids: Signal<In, Bit>,
+    pub has_rests: Signal<In, Bit>,
     /// A record may be asked for.
     pub has_room: Signal<Out, Bit>,
     /// A record that was asked for comes.
@@ -76,9 +79,13 @@ impl Logic for RecordStream {
         self.has_come.d.next = self.comes.val();
         self.halves.record.next = self.record.val();
         self.halves.vertices_alone.next = self.vertices_alone.val();
+        self.halves.has_short_ids.next = self.has_short_ids.val();
         self.packer.vertices_alone.next = self.vertices_alone.val();
+        self.packer.has_short_ids.next = self.has_short_ids.val();
+        self.packer.has_rests.next = self.has_rests.val();
         self.packer.comes.next = self.has_come.q.val();
         self.packer.halves.next = self.halves.halves.val();
+        self.packer.rest.next = self.halves.rest.val();
 
         self.queue.reset.next = self.reset.val();
         self.queue.push.next = self.packer.valid.val();

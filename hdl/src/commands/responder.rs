@@ -113,6 +113,8 @@ impl Logic for Responder {
         self.records.first.next = bit_cast::<15, 32>(self.request.val().first);
         self.records.count.next = bit_cast::<15, 32>(self.request.val().count);
         self.records.is_packed.next = self.head.val().is_packed;
+        self.records.has_short_ids.next = self.head.val().has_short_ids;
+        self.records.has_rests.next = self.head.val().has_rests;
         self.records.runs.next = self.state.q.val() == AnswerState::Records;
         self.read.next = self.records.read.val();
         self.read_id.next = self.records.read_id.val();

@@ -19,6 +19,9 @@ crate::packed! {
         pub first: Word,
         /// Number of records of a read-out, or of points that an `Insert` has yet to bring.
         pub count: Word,
+        /// A `Triangles` asks for short ids of 10 bits; with `has_rests`, of 12.
+        pub has_short_ids: bool,
+        pub has_rests: bool,
     }
 
     /// A word that the core takes from the command stream at this edge.
@@ -67,6 +70,9 @@ crate::packed! {
         /// The payload consists of records (`is_read`); with `is_packed` as well, of their vertices alone.
         pub is_read: bool,
         pub is_packed: bool,
+        /// If the payload consists of vertices: with short ids of 10 bits; with `has_rests`, of 12.
+        pub has_short_ids: bool,
+        pub has_rests: bool,
     }
 
     /// The state of an answer.

@@ -7,8 +7,8 @@ use crate::commands::types::Word;
 use crate::leaf::Parameter;
 use crate::prelude::*;
 use incircle_protocol::{
-    Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, GREETING_WORDS, LINK_MAGIC,
-    LINK_VERSION, MAGIC, PROTOCOL_VERSION,
+    Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, FEATURE_SHORT_IDS,
+    GREETING_WORDS, LINK_MAGIC, LINK_VERSION, MAGIC, PROTOCOL_VERSION,
 };
 
 const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
@@ -73,7 +73,7 @@ impl Greeting {
             contexts: config.contexts,
             engines: config.engines,
             ring_capacity: config.ring,
-            features: 0,
+            features: FEATURE_SHORT_IDS,
         };
         let max_rate = link.max_rate();
         GreetingWords {

@@ -6,8 +6,8 @@ use super::axi::RegisterIndex;
 use crate::commands::types::Word;
 use crate::leaf::Parameter;
 use incircle_protocol::{
-    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS,
-    STREAM_VERSION,
+    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAGIC,
+    PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
@@ -54,7 +54,7 @@ impl DeviceIdentity {
             coord_bits: word(CORE_COORD_BITS),
             capacity: word(config.points),
             contexts: word(config.engines << ENGINES_SHIFT | config.contexts),
-            ring_capacity: word(config.ring),
+            ring_capacity: word(FEATURE_SHORT_IDS << FEATURES_SHIFT | config.ring),
             beat_bits: word(beat_bits as u32),
             fifo_beats: word(STREAM_FIFO_BEATS),
             ..Self::default()

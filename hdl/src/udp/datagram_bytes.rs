@@ -11,8 +11,8 @@ use crate::leaf::LookupTable;
 use crate::prelude::*;
 use crate::serial::types::Byte;
 use incircle_protocol::{
-    Config, Identity, UdpGreeting, UdpLinkConfig, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION,
-    UDP_LINK_MAGIC, UDP_LINK_VERSION,
+    Config, Identity, UdpGreeting, UdpLinkConfig, CORE_COORD_BITS, CORE_VERSION, FEATURE_SHORT_IDS, MAGIC,
+    PROTOCOL_VERSION, UDP_LINK_MAGIC, UDP_LINK_VERSION,
 };
 
 /// Index of the first byte behind the header.
@@ -67,7 +67,7 @@ fn words(config: Config, link: UdpLinkConfig) -> [u32; incircle_protocol::UDP_GR
         contexts: config.contexts,
         engines: config.engines,
         ring_capacity: config.ring,
-        features: 0,
+        features: FEATURE_SHORT_IDS,
     };
     let (magic, link_version) = (UDP_LINK_MAGIC, UDP_LINK_VERSION);
     UdpGreeting { magic, link_version, clock_hz, fifo_bytes, silence_ms, mac, identity }.to_words()

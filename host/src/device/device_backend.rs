@@ -44,8 +44,11 @@ impl DeviceBackend {
         let ordered = Ordered { job: 0, prepared: prepare(points, terms.options.order, contexts) };
         carrier.watch.ended(Stage::Order);
         let ordered = carrier.answer_here(ordered, contexts, &mut done);
-        let load = |ordered| Load::step_by_step(Group::alone(ordered, contexts), terms.options, capabilities, layout);
-        let mut load = ordered.map(load);
+        let mut load = ordered.map(|ordered| {
+            let group = Group::alone(ordered, contexts);
+            let form = carrier.read_form(&group);
+            Load::step_by_step(group, form, terms.options, capabilities, layout)
+        });
         carrier.carry(&mut done, |_, _| Ok(load.take())).map_err(|failed| failed.error)?;
         Ok(done.answers.pop().flatten())
     }

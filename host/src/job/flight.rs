@@ -10,9 +10,10 @@ use incircle_protocol::{Identity, InsertReport, Opcode, COUNTER_WORDS, INSERT_RE
 
 use super::answer::Answer;
 use super::counters::{Counters, Latencies};
-use super::group::Ordered;
+use super::group::{Group, Ordered};
 use super::load::{Assembled, Load, Meshes, Step};
 use super::options::{Options, Stage};
+use super::read_form::ReadForm;
 use super::report::Report;
 use super::watch::{tell, Stopwatch};
 use crate::commands::{Came, CommandChannel};
@@ -136,6 +137,11 @@ impl Carrier<'_> {
         }
     }
 
+    /// How the records of a group are read.
+    pub(crate) fn read_form(&self, group: &Group) -> ReadForm {
+        ReadForm::of(group.sent(), self.channel.capabilities(), self.identity.features)
+    }
+
     /// Most loads under way at a time.
     fn most_sent(&self) -> usize {
         match self.identity.engines {
@@ -195,9 +201,9 @@ impl Carrier<'_> {
 
     /// Submits the commands of these steps to the transport.
     fn submit(&mut self, load: &Load, steps: &[Step], limit: Limit) -> Result<(), Error> {
-        let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
+        let layout = self.channel.layout();
         let mut words = Vec::new();
-        let commands = steps.iter().filter_map(|step| load.command(step, self.jobs, capabilities, layout, &mut words));
+        let commands = steps.iter().filter_map(|step| load.command(step, self.jobs, layout, &mut words));
         let commands: Vec<_> = commands.collect();
         let commands: Vec<_> = commands.into_iter().map(|command| command.map(|points| &words[points])).collect();
         self.channel.submit(load.tag, &commands, limit)
@@ -249,12 +255,12 @@ impl Carrier<'_> {
 
     /// Receives and checks the answers to a load, up to one that says that the engine is stuck.
     fn receive(&mut self, load: &Load, limit: Limit) -> Result<Answered, Error> {
-        let (capabilities, layout) = (self.channel.capabilities(), self.channel.layout());
-        let mut meshes = Meshes::new(&load.group, self.jobs, self.identity.capacity, capabilities, layout);
+        let layout = self.channel.layout();
+        let mut meshes = Meshes::new(&load.group, self.jobs, self.identity.capacity, load.form, layout);
         let (mut answered, mut words) = (Answered::default(), Vec::new());
         for step in &load.steps {
             self.tell_before(load, step)?;
-            let Some(command) = load.bare_command(step, capabilities) else {
+            let Some(command) = load.bare_command(step) else {
                 continue;
             };
             if !self.goes_ahead(load) {
@@ -287,8 +293,7 @@ impl Carrier<'_> {
         if load.is_step_by_step {
             tell(self.options, Stage::Assemble, 0, self.points())?;
         }
-        let read_out = if self.channel.capabilities().packs_records { Opcode::Triangles } else { Opcode::Read };
-        let assembled = meshes.finish().map_err(|fault| self.channel.distrust(read_out, fault))?;
+        let assembled = meshes.finish().map_err(|fault| self.channel.distrust(load.form.opcode(), fault))?;
         if load.is_step_by_step {
             self.watch.ended(Stage::Assemble);
         }

@@ -3,11 +3,12 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use incircle_protocol::{infinite_vertex, Clear, Command, Layout, RecordRange};
+use incircle_protocol::{infinite_vertex, Clear, Command, Layout};
 
-use super::assemble::{check_last_half, checked_record, Assembly};
+use super::assemble::{checked_record, Assembly};
 use super::group::{Group, Ordered};
 use super::options::{Options, Stage};
+use super::read_form::ReadForm;
 use crate::error::DeviceFault;
 use crate::transports::Capabilities;
 use incircle_geometry::Point;
@@ -39,6 +40,8 @@ pub(crate) enum Step {
 pub(crate) struct Load {
     pub(crate) group: Group,
     pub(crate) steps: Vec<Step>,
+    /// How its records are read.
+    pub(crate) form: ReadForm,
     /// Whether the commands go one by one, so that a listener hears the progress between them.
     pub(crate) is_step_by_step: bool,
     /// The time of this load, if it does not share the limit of all.
@@ -55,32 +58,33 @@ pub(crate) type Assembled = (Vec<[u32; 3]>, Vec<u32>);
 impl Load {
     /// A load with one command for all points and one for all records, so that all commands may be sent ahead. The
     /// counters of a job that has the whole memory are read before its mesh, so that the load ends with the mesh.
-    pub(crate) fn at_once(group: Group, time: Option<Duration>) -> Self {
+    pub(crate) fn at_once(group: Group, form: ReadForm, time: Option<Duration>) -> Self {
         let mut steps = vec![Step::Clear, Step::Insert(0..group.sent())];
         if !group.is_shared {
             steps.push(Step::Counters);
         }
         steps.push(Step::Read(0..group.records()));
-        Self { group, steps, is_step_by_step: false, time, tag: 0, stuck_engines: Vec::new() }
+        Self { group, steps, form, is_step_by_step: false, time, tag: 0, stuck_engines: Vec::new() }
     }
 
     /// A load whose points and records go in pieces, with progress told between them.
     pub(crate) fn step_by_step(
         group: Group,
+        form: ReadForm,
         options: &Options<'_>,
         capabilities: Capabilities,
         layout: Layout,
     ) -> Self {
         let pace = capabilities.pace;
         let points = pace.chunk(options.insert_chunk.max(MIN_INSERT_CHUNK), layout.point_words);
-        let one = read_out::<()>(0..1, capabilities).payload_words(layout);
+        let one = form.command::<()>(0..1).payload_words(layout);
         let records = pace.chunk(READ_CHUNK, one as usize);
         let mut steps = vec![Step::Clear];
         steps.extend(pieces(group.sent(), points).map(Step::Insert));
         steps.push(Step::Ended(Stage::Insert));
         steps.extend(pieces(group.records(), records).map(Step::Read));
         steps.extend([Step::Ended(Stage::Read), Step::Counters, Step::Latencies]);
-        Self { group, steps, is_step_by_step: true, time: None, tag: 0, stuck_engines: Vec::new() }
+        Self { group, steps, form, is_step_by_step: true, time: None, tag: 0, stuck_engines: Vec::new() }
     }
 
     /// The command of a step, if it has one. The words of its points are appended to `words`, and the command
@@ -89,11 +93,10 @@ impl Load {
         &self,
         step: &Step,
         jobs: &[Vec<Point>],
-        capabilities: Capabilities,
         layout: Layout,
         words: &mut Vec<u32>,
     ) -> Option<Command<Range<usize>>> {
-        let command = self.bare_command(step, capabilities)?;
+        let command = self.bare_command(step)?;
         Some(command.map(|range| {
             let begin = words.len();
             words.reserve(range.len() * layout.point_words);
@@ -119,25 +122,15 @@ impl Load {
     }
 
     /// The command of a step, if it has one, with its range of the points that are sent.
-    pub(crate) fn bare_command(&self, step: &Step, capabilities: Capabilities) -> Option<Command<Range<usize>>> {
+    pub(crate) fn bare_command(&self, step: &Step) -> Option<Command<Range<usize>>> {
         Some(match step {
             Step::Clear => Command::Clear(Clear { tag: self.tag, ..self.clear() }),
             Step::Insert(points) => Command::Insert { count: points.len() as u32, points: points.clone() },
-            Step::Read(records) => read_out(records.clone(), capabilities),
+            Step::Read(records) => self.form.command(records.clone()),
             Step::Counters => Command::Counters,
             Step::Latencies => Command::Latencies,
             Step::Ended(_) => return None,
         })
-    }
-}
-
-/// The command that reads these records: packed, without neighbours, if the transport allows it.
-fn read_out<P>(records: Range<usize>, capabilities: Capabilities) -> Command<P> {
-    let range = RecordRange { first: records.start as u32, count: records.len() as u32 };
-    if capabilities.packs_records {
-        Command::Triangles(range)
-    } else {
-        Command::Read(range)
     }
 }
 
@@ -150,33 +143,27 @@ fn pieces(all: usize, most: usize) -> impl Iterator<Item = Range<usize>> {
 pub(crate) struct Meshes<'a> {
     group: &'a Group,
     layout: Layout,
-    infinite: u32,
-    /// Whether records come packed, without neighbours.
-    is_packed: bool,
+    capacity: u32,
+    form: ReadForm,
     assemblies: Vec<Assembly<'a>>,
 }
 
 impl<'a> Meshes<'a> {
-    pub(crate) fn new(
-        group: &'a Group,
-        jobs: &'a [Vec<Point>],
-        capacity: u32,
-        capabilities: Capabilities,
-        layout: Layout,
-    ) -> Self {
+    pub(crate) fn new(group: &'a Group, jobs: &'a [Vec<Point>], capacity: u32, form: ReadForm, layout: Layout) -> Self {
         let assembly = |ordered: &'a Ordered| Assembly::new(&ordered.prepared.order, &jobs[ordered.job], capacity);
         let assemblies = group.jobs.iter().map(assembly).collect();
-        let is_packed = capabilities.packs_records;
-        Self { group, layout, infinite: infinite_vertex(capacity), is_packed, assemblies }
+        Self { group, layout, capacity, form, assemblies }
     }
 
     /// Takes the words of a range of records.
     pub(crate) fn take(&mut self, records: &Range<usize>, words: &[u32]) -> Result<(), DeviceFault> {
-        if self.is_packed {
+        let form = self.form;
+        if form != ReadForm::Whole {
             for (place, record) in records.clone().enumerate() {
-                self.take_vertices(record, self.layout.vertices_from_words(words, place))?;
+                let vertices = form.vertices(self.layout, self.capacity, words, records.len(), place);
+                self.take_vertices(record, vertices)?;
             }
-            return check_last_half(self.layout, records, words);
+            return form.check_spare(self.layout, records, words);
         }
         let all = self.group.records();
         for (record, words) in records.clone().zip(words.chunks_exact(self.layout.record_words)) {
@@ -189,7 +176,7 @@ impl<'a> Meshes<'a> {
         if let [only] = &mut self.assemblies[..] {
             return only.take_vertices(record, v);
         }
-        let (job, own) = self.group.own_vertices(record, v, self.group.sent(), self.infinite)?;
+        let (job, own) = self.group.own_vertices(record, v, self.group.sent(), infinite_vertex(self.capacity))?;
         self.assemblies[job].take_vertices(record, own)
     }
 

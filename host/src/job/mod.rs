@@ -21,6 +21,7 @@ pub(crate) mod group;
 pub(crate) mod load;
 mod options;
 pub(crate) mod prepare;
+pub(crate) mod read_form;
 mod report;
 pub(crate) mod watch;
 

@@ -9,6 +9,7 @@ pub(crate) mod clock;
 pub(crate) mod identity;
 pub(crate) mod model;
 pub mod pcie;
+mod read_out;
 mod round_trip;
 pub mod serial;
 mod transport;

@@ -110,7 +110,7 @@ pub struct Capabilities {
     /// it a device of several engines gets one job at a time.
     pub any_order: bool,
     /// Whether meshes are read with `Triangles`, which leaves out the neighbours and so half of the words. Clear it for
-    /// a transport that only knows `Read`, such as one that asks again for parts of an answer.
+    /// a transport that only knows `Read`.
     pub packs_records: bool,
     /// Words of answers that the device keeps for the line while its core goes on, or `usize::MAX` where the core does
     /// not wait for the line. Jobs are put side by side only while their meshes fit, because a core inserts nothing

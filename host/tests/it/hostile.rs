@@ -1,5 +1,7 @@
 //! Devices that lie: every lie ends in a typed error, never in a panic, a hang or wrong memory use.
 
+use std::cell::Cell;
+use std::rc::Rc;
 use std::time::Duration;
 
 use crate::common::liar::Liar;
@@ -47,11 +49,51 @@ fn word(
     }
 }
 
+/// The lie of a device that also leaves out the feature of short ids, so that ids come in 16 bits.
+fn without_short_ids(
+    mut lie: impl FnMut(Opcode, &mut Vec<u32>) + 'static,
+) -> impl FnMut(Opcode, &mut Vec<u32>) + 'static {
+    move |opcode, answer| {
+        if opcode == Opcode::Hello {
+            answer[2 + 6] &= 0xffff;
+        }
+        lie(opcode, answer);
+    }
+}
+
 #[test]
 fn an_honest_device_passes() {
     let mesh = run(Liar::new(16, |_, _| {})).expect("an honest mesh");
     crate::common::assert_right(&mesh);
     assert_eq!(mesh.report.backend, "liar");
+}
+
+/// A device sends short ids only if it says that it can, so older devices are read as before.
+#[test]
+fn a_device_without_short_ids_is_read_in_16_bits() {
+    let mesh = run(Liar::new(16, |_, _| {})).expect("an honest mesh").mesh;
+    let words = Rc::new(Cell::new([0; 2]));
+    let (short, long) = (Rc::clone(&words), Rc::clone(&words));
+    let liars = [
+        Liar::new(16, move |opcode, answer| {
+            if opcode == Opcode::Triangles {
+                short.set([short.get()[0] + answer[1], short.get()[1]]);
+            }
+        }),
+        Liar::new(
+            16,
+            without_short_ids(move |opcode, answer| {
+                if opcode == Opcode::Triangles {
+                    long.set([long.get()[0], long.get()[1] + answer[1]]);
+                }
+            }),
+        ),
+    ];
+    for liar in liars {
+        assert_eq!(run(liar).expect("an honest mesh").mesh, mesh);
+    }
+    // 40 points have 78 records: a word each with ids of 10 bits, and a word and a half with those of 16.
+    assert_eq!(words.get(), [78, 117]);
 }
 
 #[test]
@@ -109,8 +151,11 @@ fn absurd_latencies_are_no_more_than_absurd() {
 #[test]
 fn an_absurd_capacity_takes_no_memory() {
     // A device for a billion points has wide records. The model behind the lie has narrow ones, and that shows.
-    let found = fault(word(Opcode::Hello, 2 + 4, |_| (1 << 30) - 1));
+    let found = fault(without_short_ids(word(Opcode::Hello, 2 + 4, |_| (1 << 30) - 1)));
     assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
+    // Short ids have the same form in both, but not the infinite vertex.
+    let found = fault(word(Opcode::Hello, 2 + 4, |_| (1 << 30) - 1));
+    assert!(matches!(found, DeviceFault::VertexOutOfRange { vertex: 127, .. }), "{found}");
 }
 
 #[test]
@@ -169,19 +214,34 @@ fn wrong_records() {
 #[test]
 fn wrong_packed_triangles() {
     // The vertices of record 5 are the half words 15, 16 and 17: the high half of word 7, and both halves of word 8.
-    let vertex = |place: usize, change: fn(u32) -> u32| fault(word(Opcode::Triangles, 2 + place, change));
+    let vertex =
+        |place: usize, change: fn(u32) -> u32| fault(without_short_ids(word(Opcode::Triangles, 2 + place, change)));
     let outside = vertex(7, |w| w & 0xffff | 63 << 16);
     assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 63, points: 40 }), "{outside}");
     let outside = vertex(8, |w| w | 0xffff);
     assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 0xffff, .. }), "{outside}");
     let twice = vertex(8, |w| w >> 16 | w & 0xffff_0000);
     assert_eq!(twice, DeviceFault::RepeatedVertex { record: 5 });
-    let found = fault(|opcode, answer| {
+    let shorter = |opcode, answer: &mut Vec<u32>| {
         if opcode == Opcode::Triangles {
             answer[1] -= 1;
         }
-    });
-    assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
+    };
+    for found in [fault(without_short_ids(shorter)), fault(shorter)] {
+        assert!(matches!(found, DeviceFault::PayloadLength { .. }), "{found}");
+    }
+}
+
+#[test]
+fn wrong_short_ids() {
+    // With 40 points an id has 10 bits, and the vertices of record 5 are in word 5.
+    let vertices = |change: fn(u32) -> u32| fault(word(Opcode::Triangles, 2 + 5, change));
+    let outside = vertices(|w| w & !(0x3ff << 10) | 63 << 10);
+    assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 63, points: 40 }), "{outside}");
+    let outside = vertices(|w| w | 0x3ff << 20);
+    assert!(matches!(outside, DeviceFault::VertexOutOfRange { record: 5, vertex: 0x3ff, .. }), "{outside}");
+    let twice = vertices(|w| w & !0x3ff | w >> 10 & 0x3ff);
+    assert_eq!(twice, DeviceFault::RepeatedVertex { record: 5 });
 }
 
 /// The fault with which changed records are found out. Most such lies show only in the mesh as a whole.

@@ -38,7 +38,7 @@ impl ChipModel {
         Ok(Self {
             engines: engines.collect::<Result<_, _>>()?,
             owed: [0; MOST],
-            queues: [CommandQueue::default(); MOST],
+            queues: Default::default(),
             router: JobRouter::default(),
             collector: Collector::default(),
         })
@@ -125,7 +125,7 @@ impl ChipModel {
         let sight = Sight {
             is_free: std::array::from_fn(|engine| engine < count && self.owed[engine] == 0),
             is_stuck: std::array::from_fn(|engine| engine >= count || self.collector.is_stuck(engine)),
-            has_room: self.queues.map(|queue| queue.has_room()),
+            has_room: self.queues.each_ref().map(CommandQueue::has_room),
         };
         let push = self.router.push(&sight);
         let takes = self.collector.takes(&offers, inputs.response_ready);
@@ -148,7 +148,7 @@ impl ChipModel {
         self.collector.clock(&offers, takes);
         if inputs.reset {
             self.owed = [0; MOST];
-            self.queues = [CommandQueue::default(); MOST];
+            self.queues = Default::default();
             self.router = JobRouter::default();
             self.collector = Collector::default();
         }

@@ -10,7 +10,9 @@ use crate::mesh::Mesh;
 use crate::predicate::Point;
 use awaited::{Awaited, Range, Reading};
 use incircle_protocol as protocol;
-use protocol::{answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, RunKind, Status};
+use protocol::{
+    answer_header, signed_header, Counter, Identity, InsertReport, Layout, Opcode, RunKind, ShortIds, Status,
+};
 use std::collections::VecDeque;
 use std::fmt;
 
@@ -88,6 +90,8 @@ impl CommandModel {
         if !(protocol::MIN_RING..=protocol::MAX_RING).contains(&ring_capacity) {
             return Err(ModelError::Ring(ring_capacity));
         }
+        let layout = Layout::of(coord_bits, capacity);
+        let is_narrow = layout.record_words == 3;
         Ok(Self {
             identity: Identity {
                 magic: protocol::MAGIC,
@@ -98,9 +102,9 @@ impl CommandModel {
                 contexts: 1,
                 engines: 1,
                 ring_capacity,
-                features: 0,
+                features: if is_narrow { protocol::FEATURE_SHORT_IDS } else { 0 },
             },
-            layout: Layout::of(coord_bits, capacity),
+            layout,
             mesh: Mesh::new(capacity, ring_capacity),
             awaited: Awaited::Command,
             tag: 0,
@@ -220,7 +224,11 @@ impl CommandModel {
             Some(Opcode::Clear) => self.clear(word),
             Some(Opcode::Insert) => self.awaited = Awaited::InsertCount,
             Some(Opcode::Read) => self.awaited = Awaited::ReadFirst(Range::Records),
-            Some(Opcode::Triangles) => self.awaited = Awaited::ReadFirst(Range::Vertices),
+            Some(Opcode::Triangles) => {
+                let short =
+                    ShortIds::of_word(word).filter(|_| self.identity.features & protocol::FEATURE_SHORT_IDS != 0);
+                self.awaited = Awaited::ReadFirst(short.map_or(Range::Vertices, Range::ShortVertices));
+            }
             Some(Opcode::Counters) => {
                 let words = self.counter_words();
                 self.answer(opcode, Status::Ok, &words);

@@ -55,10 +55,11 @@ const PROTOCOL_VERSION_WORD: usize = 1;
 const CAPACITY_WORD: usize = 4;
 /// Number of words in front of an answer's payload.
 const HEAD_WORDS: usize = 2;
-/// Indices of the words of an answer's first record.
+/// Indices of words of an answer's first records.
 const FIRST_RECORD: std::ops::Range<usize> = HEAD_WORDS..HEAD_WORDS + 3;
-/// A vertex that no small core has, and that is not the infinite vertex of any core.
-const NO_VERTEX: u32 = 0x5a5a;
+/// A word with ids that no small job has in any form: 3fe with ids of 10 bits, ffe with those of 12, fbfe and ffef with
+/// those of 16, and 7bfe in a whole record. None of them is the infinite vertex.
+const NO_VERTEX: u32 = 0xffef_fbfe;
 /// Number of frames that are sent in place of the end of an answer that never ends.
 const ENDLESS_FRAMES: u8 = 8;
 
@@ -135,7 +136,7 @@ impl Liar {
         }
         match (Opcode::from_u8(self.opcode), self.lie) {
             (Some(Opcode::Hello), _) if is_first => self.lie_of_identity(words, HEAD_WORDS),
-            (Some(Opcode::Read), Lie::Index) if is_first => {
+            (Some(Opcode::Read | Opcode::Triangles), Lie::Index) if is_first => {
                 for place in FIRST_RECORD {
                     put(words, place, NO_VERTEX);
                 }
@@ -155,7 +156,8 @@ impl Liar {
     /// Sends the last frame of an answer, or, for an answer that never ends, the same words again and again.
     fn end_answer(&mut self, mut frame: FromDevice, end: usize) {
         frame.body.truncate(end);
-        if self.lie == Lie::Endless && self.opcode == Opcode::Read as u8 {
+        let is_read_out = matches!(Opcode::from_u8(self.opcode), Some(Opcode::Read | Opcode::Triangles));
+        if self.lie == Lie::Endless && is_read_out {
             frame.kind = DeviceFrame::Answer;
             for _ in 0..ENDLESS_FRAMES {
                 self.said.extend(frame.to_line());
@@ -218,7 +220,13 @@ mod tests {
 
     #[test]
     fn answers_are_told_otherwise_or_without_end() {
-        let read = frame(DeviceFrame::AnswerEnd, &[0x0400_0000, 6, 1, 2, 3, 4, 5, 6]);
+        for opcode in [Opcode::Read, Opcode::Triangles] {
+            read_outs_are_told_otherwise_or_without_end(opcode);
+        }
+    }
+
+    fn read_outs_are_told_otherwise_or_without_end(opcode: Opcode) {
+        let read = frame(DeviceFrame::AnswerEnd, &[(opcode as u32) << 24, 6, 1, 2, 3, 4, 5, 6]);
         let lied = &said(Lie::Index, std::slice::from_ref(&read))[0];
         assert_eq!((word(lied, 3, 2), word(lied, 3, 5)), (NO_VERTEX, 4));
         let words = &lied.body[3..lied.body.len() - 4];

@@ -29,8 +29,9 @@ pub enum CardLie {
     Status,
 }
 
-/// A vertex that no core has, and that is not the infinite vertex of any core.
-const NO_VERTEX: u32 = 0x5a5a_5a5a;
+/// A word with ids that no small job has in any form: 3fe with ids of 10 bits, ffe with those of 12, fbfe and ffef with
+/// those of 16, and 7bfe in a whole record. None of them is the infinite vertex.
+const NO_VERTEX: u32 = 0xffef_fbfe;
 
 impl CardLie {
     /// The names of all lies, for messages.

@@ -76,7 +76,11 @@ impl NullDevice {
                 self.points = self.points.wrapping_add(count);
                 self.left = Some(command.point_words(self.layout));
             }
-            Command::Read(_) | Command::Triangles(_) | Command::Counters | Command::Latencies => {
+            Command::Read(_)
+            | Command::Triangles(_)
+            | Command::ShortTriangles(..)
+            | Command::Counters
+            | Command::Latencies => {
                 self.answer(command.opcode(), &[], command.payload_words(self.layout) as usize);
             }
             // The identity does not offer runs.

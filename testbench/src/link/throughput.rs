@@ -141,10 +141,11 @@ pub fn throughput_document(say: &dyn Fn(&str)) -> Result<String, Box<dyn Error>>
     let verdict = if frame <= FRAME_TARGET_MS { "met" } else { "missed" };
     write!(
         text,
-        "\nThe answer to a point takes 12 bytes of the wire, so a gigabit carries 9.8 million points a second at most: the\n\
-         aim of `dual` lies above that, and needs answers with fewer bits.\n\n\
-         Jobs of 1000 points and more run less side by side than on a bus: their meshes must fit the FIFO of the device,\n\
-         which holds those of 5400 points, or the core would wait for the cable.\n\n\
+        "\nMeshes are read with short ids of 12 bits, so the jobs that share a memory have at most 4095 points together.\n\
+         The answer to a point then takes 9 bytes, so a gigabit carries 12.7 million points a second at most; with ids of 16\n\
+         bits it would carry 9.7 million.\n\n\
+         Jobs of 1000 points and more run less side by side than on a bus: their ids must be short, and their meshes must\n\
+         fit the FIFO of the device, or the core would wait for the cable.\n\n\
          One frame of {} points on `{}` at {} MHz takes {frame:.2} ms from the call to the mesh; the aim was\n\
          {FRAME_TARGET_MS} ms, {verdict}.\n",
         FRAME.points, FRAME.config.name, FRAME.clock_mhz

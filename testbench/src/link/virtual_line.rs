@@ -220,6 +220,6 @@ impl Transport for VirtualTransport {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { packs_records: false, ..Capabilities::default() }
+        Capabilities::default()
     }
 }

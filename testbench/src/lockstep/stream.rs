@@ -3,7 +3,7 @@
 use super::report::Mismatch;
 use super::Lockstep;
 use incircle_model::Inputs;
-use incircle_protocol::{batch_word, clear_word, command_word, Clear, Config, Meshes, Opcode, PADDING};
+use incircle_protocol::{batch_word, clear_word, command_word, Clear, Config, Meshes, Opcode, ShortIds, PADDING};
 
 /// Frequency of stalls on each side of the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,8 +88,16 @@ impl Job {
         let records = model.mesh().records().len() as u32;
         let [read, triangles, latencies, counters] =
             [Opcode::Read, Opcode::Triangles, Opcode::Latencies, Opcode::Counters].map(command_word);
-        let rest = [triangles, 0, records, PADDING, read, 0, records, PADDING, PADDING, latencies, counters];
-        commands.extend(rest);
+        let short = [ShortIds::Ten, ShortIds::Twelve].map(|ids| triangles | ids.word_bits());
+        let rest = [
+            [triangles, 0, records, PADDING],
+            [short[0], 0, records, PADDING],
+            [short[1], 0, records, PADDING],
+            [read, 0, records, PADDING],
+            [PADDING, latencies, counters, PADDING],
+        ]
+        .concat();
+        commands.extend(&rest);
         model.send(&rest);
         let mut answers = 0;
         let mut buffer = [0; 1024];

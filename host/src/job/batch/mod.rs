@@ -17,10 +17,11 @@ use super::group::{Group, Ordered};
 use super::load::Load;
 use super::options::{Options, Stage};
 use super::prepare::prepare;
+use super::read_form::ReadForm;
 use super::watch::tell;
 use incircle_geometry::Order;
 use incircle_geometry::Point;
-use incircle_protocol::{Command, Identity, RecordRange};
+use incircle_protocol::{Identity, ShortIds};
 use plan::{Part, Plan};
 
 /// Most points of a job that is done beside others: in a group, whose records are read with one command, or in one of
@@ -66,7 +67,7 @@ impl<'b> Batch<'b> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let has_teams = self.carrier.identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
         let plan =
-            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.kept_points());
+            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.most_shared());
         let (small, mut exclusive) = self.divide(&plan);
         let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;
@@ -79,12 +80,21 @@ impl<'b> Batch<'b> {
         Ok((done, left))
     }
 
-    /// Number of points whose mesh the device keeps for the line while its core goes on.
-    fn kept_points(&self) -> usize {
+    /// Most points of jobs that share the memory: those whose mesh the device keeps for the line while its core goes on.
+    /// Where the line may be slower than the core, they are also no more than short ids can number.
+    fn most_shared(&self) -> usize {
+        let carrier = &self.carrier;
+        let capabilities = carrier.channel.capabilities();
+        if capabilities.kept_words == usize::MAX && capabilities.pace.words_per_second.is_none() {
+            return usize::MAX;
+        }
+        let most = ShortIds::MOST_IDS as usize;
+        let form = ReadForm::of(most, capabilities, carrier.identity.features);
         // A point stands for two records.
-        let two = Command::<()>::Triangles(RecordRange { first: 0, count: 2 });
-        let words = two.payload_words(self.carrier.channel.layout()).max(1);
-        self.carrier.channel.capabilities().kept_words / usize::try_from(words).unwrap_or(usize::MAX)
+        let [records, points] = [ShortIds::WHOLE as usize, ShortIds::WHOLE as usize / 2];
+        let words = form.command::<()>(0..records).payload_words(carrier.channel.layout()).max(1);
+        let kept = (capabilities.kept_words / usize::try_from(words).unwrap_or(usize::MAX)).saturating_mul(points);
+        kept.min(if matches!(form, ReadForm::Short(_)) { most } else { usize::MAX })
     }
 
     /// The jobs that may share the memory, and the exclusive ones.
@@ -168,14 +178,16 @@ fn next_load(
         tell(carrier.options, Stage::Insert, done.passed, carrier.points())?;
         done.passed += group.jobs.iter().map(|ordered| carrier.jobs[ordered.job].len()).sum::<usize>();
         if group.is_shared {
-            return Ok(Some(Load::at_once(group, None)));
+            let form = carrier.read_form(&group);
+            return Ok(Some(Load::at_once(group, form, None)));
         }
         let own = group.only_job().filter(|_| !carrier.shares_limit);
         let time = own.map(|job| exclusive_time(carrier, job));
         let jobs = std::mem::take(&mut group.jobs);
         group.jobs = jobs.into_iter().filter_map(|ordered| carrier.answer_here(ordered, 1, done)).collect();
         if !group.jobs.is_empty() {
-            return Ok(Some(Load::at_once(group, time)));
+            let form = carrier.read_form(&group);
+            return Ok(Some(Load::at_once(group, form, time)));
         }
     }
     Ok(None)

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use incircle_protocol::{
-    answer_head, Command, Layout, Opcode, RecordRange, ANSWER_HEAD_WORDS as HEADER, COUNTER_WORDS, IDENTITY_WORDS,
+    answer_head, Command, Layout, RecordRange, ANSWER_HEAD_WORDS as HEADER, COUNTER_WORDS, IDENTITY_WORDS,
     INSERT_REPORT_WORDS, LATENCY_BUCKETS,
 };
 
@@ -11,6 +11,7 @@ use super::codec::AnswerPart;
 use super::fault::SerialFault;
 use super::sender::Sender;
 use crate::transports::is_begun_as;
+use crate::transports::read_out::ReadOut;
 use crate::transports::words::words_of;
 
 /// Most words of payload of a range: with the header they fill three frames.
@@ -43,8 +44,8 @@ struct Asked {
 enum Question {
     /// The command as a whole.
     Whole,
-    /// A part of the command's range of records.
-    Range { first: u32, count: u32 },
+    /// A part of the command's range of records, with the length of its payload.
+    Range { first: u32, count: u32, words: usize },
     /// Something that nobody waits for any more.
     Nothing,
 }
@@ -58,10 +59,8 @@ struct Exchange {
     answer: Vec<u32>,
     /// Ranges that are still to be asked for, each as its first record and its number of records.
     todo: VecDeque<(u32, u32)>,
-    /// First record of the command's range.
-    origin: u32,
-    /// Words of a record.
-    width: usize,
+    /// The command's range of records, if it reads any.
+    read_out: Option<ReadOut>,
     /// Number of records that have not come.
     missing: u32,
     is_done: bool,
@@ -134,15 +133,16 @@ impl Reader {
     /// Asks for more ranges, as many as may be under way.
     pub fn ask_more(&mut self, sender: &mut Sender) {
         let Some(exchange) = &mut self.exchange else { return };
-        let most = u32::try_from(self.range / exchange.width).unwrap_or(u32::MAX).max(1);
+        let Some(read_out) = exchange.read_out else { return };
+        let most = read_out.most(self.range);
         while self.asked.len() < MAX_ASKED {
             let Some((first, count)) = exchange.todo.pop_front() else { return };
             let now = count.min(most);
             if count > now {
                 exchange.todo.push_front((first + now, count - now));
             }
-            let end = sender.push_command(&Command::<[u32; 0]>::Read(RecordRange { first, count: now }));
-            self.asked.push_back(Asked::new(Question::Range { first, count: now }, end));
+            let end = sender.push_command(&read_out.part::<[u32; 0]>(first, now));
+            self.asked.push_back(Asked::new(Question::Range { first, count: now, words: read_out.words(now) }, end));
         }
     }
 
@@ -159,7 +159,7 @@ impl Reader {
             self.end_first(sender);
         }
         let Some(asked) = self.asked.front_mut() else { return Ok(false) };
-        let is_news = asked.take(part, self.exchange.as_mut(), self.layout.record_words)?;
+        let is_news = asked.take(part, self.exchange.as_mut())?;
         if part.digest.is_some() && (is_news || asked.is_damaged) {
             self.end_first(sender);
         }
@@ -221,7 +221,7 @@ impl Reader {
                 let end = sender.push_command(&exchange.again);
                 self.asked.push_back(Asked::new(Question::Whole, end));
             }
-            Question::Range { first, count } => exchange.todo.push_front((first, count)),
+            Question::Range { first, count, .. } => exchange.todo.push_front((first, count)),
         }
         self.repeated += 1;
         self.ask_more(sender);
@@ -239,12 +239,7 @@ impl Asked {
     }
 
     /// Takes the next words. Returns false if they are not the next ones: they came before, or others were lost.
-    fn take(
-        &mut self,
-        part: &AnswerPart<'_>,
-        exchange: Option<&mut Exchange>,
-        width: usize,
-    ) -> Result<bool, SerialFault> {
+    fn take(&mut self, part: &AnswerPart<'_>, exchange: Option<&mut Exchange>) -> Result<bool, SerialFault> {
         if self.is_damaged {
             return Ok(false);
         }
@@ -258,7 +253,7 @@ impl Asked {
             return Ok(false);
         }
         let most = match self.what {
-            Question::Range { count, .. } => HEADER + count as usize * width,
+            Question::Range { words, .. } => HEADER + words,
             Question::Whole => HEADER + LONGEST_WHOLE,
             // This was a range once, and its length is forgotten.
             Question::Nothing => HEADER + RANGE_WORDS,
@@ -283,11 +278,10 @@ impl Asked {
                 *header = word;
             }
             let Some(exchange) = exchange.as_deref_mut() else { continue };
-            let place = match self.what {
-                Question::Nothing => continue,
-                Question::Whole => place,
-                Question::Range { .. } if place < HEADER => continue,
-                Question::Range { first, .. } => place + (first - exchange.origin) as usize * exchange.width,
+            let place = match (self.what, exchange.read_out) {
+                (Question::Whole, _) => place,
+                (Question::Range { first, .. }, Some(read_out)) if place >= HEADER => place + read_out.place(first),
+                _ => continue,
             };
             if let Some(kept) = exchange.answer.get_mut(place) {
                 *kept = word;
@@ -322,38 +316,31 @@ impl Exchange {
             Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
                 return Err(SerialFault::Command("the points of this command are laid out for another device"));
             }
-            // Parts of an answer are asked for again, and a part of packed triangles may end within a word.
-            Command::Triangles(_) => return Err(SerialFault::Command("the serial link only reads whole records")),
             // A question is sent again if its answer is lost, and would change the mesh twice.
             Command::Run { .. } => return Err(SerialFault::Command("the serial link takes no runs")),
             // Inserting no points brings the report of the points before them once more.
             Command::Insert { .. } => Command::Insert { count: 0, points: [] },
             command => command.map(|()| []),
         };
-        let whole = Self {
-            again,
-            answer: Vec::new(),
-            todo: VecDeque::new(),
-            origin: 0,
-            width: layout.record_words,
-            missing: 0,
-            is_done: false,
-        };
-        match again {
-            Command::Read(range) => whole.in_ranges(range, command.payload_words(layout)),
-            _ => Ok(Self { answer: vec![0; HEADER + LONGEST_WHOLE], ..whole }),
+        let whole =
+            Self { again, answer: Vec::new(), todo: VecDeque::new(), read_out: None, missing: 0, is_done: false };
+        match ReadOut::of(command.bare(), layout) {
+            Some(read_out) => whole.in_ranges(read_out, command.payload_words(layout)),
+            None => Ok(Self { answer: vec![0; HEADER + LONGEST_WHOLE], ..whole }),
         }
     }
 
     /// Prepares to ask for the answer in ranges of these records.
-    fn in_ranges(self, RecordRange { first, count }: RecordRange, payload: u64) -> Result<Self, SerialFault> {
+    fn in_ranges(self, read_out: ReadOut, payload: u64) -> Result<Self, SerialFault> {
         const NO_ROOM: SerialFault = SerialFault::Command("there is no memory for an answer of this length");
         let words = usize::try_from(payload).ok().and_then(|payload| payload.checked_add(HEADER)).ok_or(NO_ROOM)?;
         let mut answer = Vec::new();
         answer.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
         answer.resize(words, 0);
+        let RecordRange { first, count } = read_out.range();
         first.checked_add(count).ok_or(SerialFault::Command("the range goes beyond the last record number"))?;
-        Ok(Self { answer, todo: VecDeque::from([(first, count)]), origin: first, missing: count, ..self })
+        let todo = VecDeque::from([(first, count)]);
+        Ok(Self { answer, todo, read_out: Some(read_out), missing: count, ..self })
     }
 
     /// Takes a whole answer to a question. Returns true if nothing is missing any more.
@@ -366,9 +353,9 @@ impl Exchange {
                 self.is_done = true;
                 true
             }
-            Question::Range { count, .. } => {
-                let due = u32::try_from(count as usize * self.width).unwrap_or(u32::MAX);
-                let is_right = is_begun_as([header, length], answer_head(Opcode::Read, due));
+            Question::Range { count, words, .. } => {
+                let due = u32::try_from(words).unwrap_or(u32::MAX);
+                let is_right = is_begun_as([header, length], answer_head(self.again.opcode(), due));
                 // A refusal, or a wrong length, stands for the answer to the whole command: the session judges it.
                 self.missing = if is_right { self.missing - count.min(self.missing) } else { 0 };
                 if is_right {

@@ -237,7 +237,7 @@ impl Transport for SerialTransport {
     fn capabilities(&self) -> Capabilities {
         let words = self.protocol.rate() / WORD_BITS / self.slow;
         let pace = Pace { slow: self.slow, words_per_second: Some(words.max(1)) };
-        Capabilities { any_order: true, packs_records: false, pace, ..Capabilities::default() }
+        Capabilities { any_order: true, pace, ..Capabilities::default() }
     }
 }
 

@@ -2,13 +2,14 @@
 
 use std::collections::VecDeque;
 
-use incircle_protocol::{answer_head, Command, Layout, RecordRange, ANSWER_HEAD_WORDS as HEAD, MAX_DATAGRAM_WORDS};
+use incircle_protocol::{answer_head, Command, Layout, ANSWER_HEAD_WORDS as HEAD, MAX_DATAGRAM_WORDS};
 
 use super::fault::UdpFault;
+use crate::transports::read_out::ReadOut;
 use crate::transports::{is_begun_as, AnswerHead};
 
 /// Most words of payload of an answer in one datagram.
-const MOST_PAYLOAD: u64 = (MAX_DATAGRAM_WORDS - HEAD) as u64;
+const MOST_PAYLOAD: usize = MAX_DATAGRAM_WORDS - HEAD;
 
 /// The state of a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +27,8 @@ pub(super) enum State {
 pub(super) struct Question {
     /// Index of the command in the unit.
     command: usize,
-    /// The records of a range.
-    range: Option<RecordRange>,
+    /// The command that reads a part of the range, if the answer to the whole command may be longer than a datagram.
+    part: Option<Command<()>>,
     /// Words of payload of the answer, if the device does as it is told.
     pub words: usize,
     /// Index of the first of them in the payload of the command's answer.
@@ -35,6 +36,12 @@ pub(super) struct Question {
     pub state: State,
     /// Whether it was sent before in this run.
     was_asked: bool,
+}
+
+impl Question {
+    fn new(command: usize, part: Option<Command<()>>, words: usize, place: usize) -> Self {
+        Self { command, part, words, place, state: State::Due, was_asked: false }
+    }
 }
 
 /// An answer: its beginning and its payload.
@@ -111,17 +118,11 @@ impl Unit {
                 }
                 // A question is sent again if its answer is lost, and would change the mesh twice.
                 Command::Run { .. } => return Err(UdpFault::Command("the UDP link takes no runs")),
-                &Command::Read(range) | &Command::Triangles(range) => {
-                    questions_of(index, command, range, layout, &mut self.questions)?;
-                }
-                _ => self.questions.push(Question {
-                    command: index,
-                    range: None,
-                    words,
-                    place: 0,
-                    state: State::Due,
-                    was_asked: false,
-                }),
+                _ => {}
+            }
+            match ReadOut::of(command.bare(), layout) {
+                Some(read_out) => parts_of(index, &read_out, &mut self.questions)?,
+                None => self.questions.push(Question::new(index, None, words, 0)),
             }
         }
         (self.missing, self.is_started) = (self.questions.len(), true);
@@ -146,9 +147,8 @@ impl Unit {
         let command = self.commands.get(question.command)?;
         let was_asked = std::mem::replace(&mut question.was_asked, true);
         question.state = State::Asked;
-        Some(match (command, question.range) {
-            (Command::Read(_), Some(range)) => Command::Read(range),
-            (Command::Triangles(_), Some(range)) => Command::Triangles(range),
+        Some(match (command, question.part) {
+            (_, Some(part)) => part.map(|()| &[][..]),
             // Inserting no points brings the report of the points before them once more.
             (Command::Insert { .. }, _) if was_asked => Command::Insert { count: 0, points: &[] },
             _ => command.borrowed(),
@@ -211,37 +211,19 @@ impl Unit {
     }
 }
 
-/// Cuts a range of records so that each answer fits a datagram. A cut within packed triangles falls between two words,
-/// because all ranges but the last have an even number of records.
-fn questions_of(
-    index: usize,
-    command: &Command<Vec<u32>>,
-    RecordRange { first, count }: RecordRange,
-    layout: Layout,
-    questions: &mut Vec<Question>,
-) -> Result<(), UdpFault> {
-    first.checked_add(count).ok_or(UdpFault::Command("the range goes beyond the last record number"))?;
-    let part = |first, count| match command {
-        Command::Triangles(_) => Command::<()>::Triangles(RecordRange { first, count }),
-        _ => Command::Read(RecordRange { first, count }),
-    };
-    let two = part(0, 2).payload_words(layout).max(1);
-    let most = u32::try_from(MOST_PAYLOAD / two * 2).unwrap_or(2).max(2);
-    let (mut done, mut place) = (0, 0);
+/// Cuts a range of records so that each answer fits a datagram.
+fn parts_of(index: usize, read_out: &ReadOut, questions: &mut Vec<Question>) -> Result<(), UdpFault> {
+    let range = read_out.range();
+    let end = range.first.checked_add(range.count);
+    let end = end.ok_or(UdpFault::Command("the range goes beyond the last record number"))?;
+    let most = read_out.most(MOST_PAYLOAD);
+    let mut first = range.first;
     loop {
-        let now = (count - done).min(most);
-        let range = RecordRange { first: first + done, count: now };
-        let words = usize::try_from(part(range.first, now).payload_words(layout)).unwrap_or(usize::MAX);
-        questions.push(Question {
-            command: index,
-            range: Some(range),
-            words,
-            place,
-            state: State::Due,
-            was_asked: false,
-        });
-        (done, place) = (done + now, place + words);
-        if done == count {
+        let count = (end - first).min(most);
+        let part = Some(read_out.part(first, count));
+        questions.push(Question::new(index, part, read_out.words(count), read_out.place(first)));
+        first += count;
+        if first == end {
             return Ok(());
         }
     }

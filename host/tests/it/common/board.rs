@@ -71,7 +71,8 @@ pub fn frame(plain: &[u8]) -> Vec<u8> {
 
 /// The words of the greeting of a sound device.
 pub fn greeting(fifo: u32) -> [u32; 13] {
-    [0x696e_436c, 1 << 16, CLOCK, fifo, CLOCK / 8, 2000, 0x696e_4369, 2 << 16, 3 << 8, 16, CAPACITY, 1 << 8 | 1, 32]
+    let ring = 2 << 16 | 32;
+    [0x696e_436c, 1 << 16, CLOCK, fifo, CLOCK / 8, 2000, 0x696e_4369, 2 << 16, 3 << 8, 16, CAPACITY, 1 << 8 | 1, ring]
 }
 
 /// A board with its end of the serial link.

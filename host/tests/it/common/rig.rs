@@ -260,6 +260,6 @@ impl Transport for Rig {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { packs_records: false, ..Capabilities::default() }
+        Capabilities::default()
     }
 }

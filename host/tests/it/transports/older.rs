@@ -45,6 +45,8 @@ impl Transport for Older {
             if answer_opcode(answer[0]) == Opcode::Hello as u8 {
                 answer[3] = 1 << 16 | 2;
                 answer[7] &= 0xff;
+                // Such a device knows no short ids.
+                answer[8] &= 0xffff;
             }
             self.answers.extend(answer);
         }

@@ -4,7 +4,7 @@
 use super::counters::Latencies;
 use super::wires::Registers;
 use incircle_protocol as protocol;
-use protocol::{answer_header, signed_header, Config, Identity, InsertReport, Opcode, Status};
+use protocol::{answer_header, signed_header, Config, Identity, InsertReport, Opcode, ShortIds, Status};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
@@ -66,7 +66,12 @@ fn head(was: &Registers) -> (Status, u32) {
             let end = u64::from(command.first) + u64::from(command.count);
             if end <= u64::from(was.commit.records) {
                 let ids = 3 * command.count;
-                let words = if command.opcode == Opcode::Read as u8 { ids } else { ids.div_ceil(2) };
+                let words = match command.short_ids {
+                    _ if command.opcode == Opcode::Read as u8 => ids,
+                    None => ids.div_ceil(2),
+                    Some(ShortIds::Ten) => command.count,
+                    Some(ShortIds::Twelve) => command.count + command.count.div_ceil(8),
+                };
                 (Status::Ok, words)
             } else {
                 (Status::BadRange, 0)
@@ -88,7 +93,7 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
             contexts: config.contexts,
             engines: config.engines,
             ring_capacity: config.ring,
-            features: if was.has_runs { protocol::FEATURE_RUNS } else { 0 },
+            features: protocol::FEATURE_SHORT_IDS | if was.has_runs { protocol::FEATURE_RUNS } else { 0 },
         }
         .to_words()[index],
         Some(Opcode::Insert) => InsertReport {

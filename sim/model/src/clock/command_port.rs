@@ -4,7 +4,8 @@
 
 use super::wires::{Registers, Wires};
 use incircle_protocol::{
-    command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, Config, Opcode, PADDING,
+    command_contexts, command_meshes, command_opcode, command_starts_batch, command_tag, Config, Opcode, ShortIds,
+    PADDING,
 };
 
 /// The meaning of the next word, or the event that is awaited.
@@ -34,6 +35,8 @@ struct Check {
 pub(super) struct CommandPort {
     pub state: State,
     pub opcode: u8,
+    /// The form of the ids that a `Triangles` asks for.
+    pub short_ids: Option<ShortIds>,
     pub first: u32,
     /// Second argument of a read, or number of points still to come of an insert.
     pub count: u32,
@@ -139,6 +142,7 @@ impl CommandPort {
         let opcode = command_opcode(word);
         let asked = command_contexts(word);
         self.opcode = opcode;
+        self.short_ids = ShortIds::of_word(word);
         let is_clear = opcode == Opcode::Clear as u8;
         self.is_refused = is_clear && asked > config.contexts;
         if is_clear {

@@ -4,7 +4,7 @@
 //! Hardware twin: the block `RecordReads`.
 
 use super::beat::Beat;
-use incircle_protocol::NARROW_ID_BITS;
+use incircle_protocol::{ShortIds, NARROW_ID_BITS};
 
 /// Largest number of waiting beats with which more records are asked for.
 const ROOM: usize = 4;
@@ -12,6 +12,22 @@ const ROOM: usize = 4;
 const QUEUE: usize = 16;
 /// Number of halves of a word, 16 bits each, in a full beat.
 const FULL: usize = 4;
+/// Number of records whose rests share a word, with short ids of 12 bits.
+const GROUP: u32 = 8;
+/// Most halves that a record brings.
+const MOST_BROUGHT: usize = 6;
+
+/// The words of a record that a payload has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Form {
+    /// All of them.
+    #[default]
+    Whole,
+    /// The vertices, 16 bits each.
+    Vertices,
+    /// The vertices, with short ids.
+    Short(ShortIds),
+}
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RecordReads {
@@ -35,8 +51,7 @@ pub(super) struct RecordReads {
 /// The events of one edge.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Event {
-    /// Whether the payload has only vertices.
-    pub packs: bool,
+    pub form: Form,
     /// Whether a record is asked for.
     pub asks: bool,
     /// The record that comes, if one does.
@@ -66,8 +81,8 @@ impl RecordReads {
 
     pub(super) fn clock(&mut self, event: Event) {
         let was = *self;
-        let Event { packs, asks, done, takes } = event;
-        self.pauses = asks && was.is_second && !packs;
+        let Event { form, asks, done, takes } = event;
+        self.pauses = asks && was.is_second && form == Form::Whole;
         if asks {
             self.record_id += 1;
             self.left -= 1;
@@ -81,7 +96,7 @@ impl RecordReads {
         }
         self.has_room = was.queue.waiting <= ROOM;
         self.queue.clock(was.packer.filled, pops);
-        self.packer.clock(was.buffer, packs);
+        self.packer.clock(was.buffer, form);
     }
 }
 
@@ -95,41 +110,66 @@ struct Packer {
     count: usize,
     /// Whether the held halves become a beat although no record comes.
     flushes: bool,
+    /// With short ids of 12 bits, the rests of the records of the group so far, the last one on top, and the number of
+    /// these records.
+    rests: u32,
+    in_group: u32,
     /// A beat that is full, or the last one.
     filled: Option<Beat>,
 }
 
 impl Packer {
     /// Simulates one edge, at which a record comes or not.
-    fn clock(&mut self, record: Option<[u32; 3]>, packs: bool) {
+    fn clock(&mut self, record: Option<[u32; 3]>, form: Form) {
         let was = *self;
         (self.filled, self.flushes) = (None, false);
         if was.flushes {
             assert!(record.is_none(), "a record comes in the clock of the rest");
             let last = was.left == 0;
-            *self = Self { left: was.left, filled: Some(beat_of(was.held, was.count, last)), ..Self::default() };
+            (self.held, self.count) = ([0; FULL], 0);
+            self.filled = Some(beat_of(was.held, was.count, last));
         }
         let Some(words) = record else {
             return;
         };
-        let mut halves = [0; FULL + 6];
-        halves[..FULL].copy_from_slice(&was.held);
-        let mut end = was.count;
-        for word in words {
-            let ids = [word & ((1 << NARROW_ID_BITS) - 1)];
-            let both = [word & 0xffff, word >> 16];
-            for &half in if packs { &ids[..] } else { &both[..] } {
-                halves[end] = half;
-                end += 1;
-            }
-        }
         self.left = self.left.wrapping_sub(1);
+        let mut halves = [0; FULL + MOST_BROUGHT];
+        halves[..FULL].copy_from_slice(&was.held);
+        let (brought, number) = self.halves(words, form);
+        let end = was.count + number;
+        halves[was.count..end].copy_from_slice(&brought[..number]);
         let sent = if end < FULL { 0 } else { FULL };
         self.count = end - sent;
         self.held = [0, 1, 2, 3].map(|place| halves[sent + place]);
         self.flushes = self.count == FULL || self.left == 0 && self.count != 0;
         let last = self.left == 0 && !self.flushes;
         self.filled = (sent != 0).then(|| beat_of([0, 1, 2, 3].map(|place| halves[place]), FULL, last));
+    }
+
+    /// The halves that a record brings, and their number.
+    fn halves(&mut self, words: [u32; 3], form: Form) -> ([u32; MOST_BROUGHT], usize) {
+        let [v0, v1, v2] = words.map(|word| word & ((1 << NARROW_ID_BITS) - 1));
+        let ids = match form {
+            Form::Whole => {
+                let [a, b, c] = words.map(|word| [word & 0xffff, word >> 16]);
+                return ([a[0], a[1], b[0], b[1], c[0], c[1]], 6);
+            }
+            Form::Vertices => return ([v0, v1, v2, 0, 0, 0], 3),
+            Form::Short(ids) => ids,
+        };
+        let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
+        let own = [low & 0xffff, low >> 16, 0, 0, 0, 0];
+        if ids == ShortIds::Ten {
+            return (own, 2);
+        }
+        self.rests = self.rests >> 4 | (v1 >> 10 & 3 | (v2 >> 10 & 3) << 2) << 28;
+        self.in_group += 1;
+        if self.in_group < GROUP && self.left > 0 {
+            return (own, 2);
+        }
+        let rests = std::mem::take(&mut self.rests);
+        self.in_group = 0;
+        ([own[0], own[1], rests & 0xffff, rests >> 16, 0, 0], 4)
     }
 }
 

@@ -6,7 +6,7 @@ use super::answer::Answer;
 use super::beat::Beat;
 use super::command_port::State as CommandState;
 use super::counters::Latencies;
-use super::record_reads::{Event, RecordReads};
+use super::record_reads::{Event, Form, RecordReads};
 use super::wires::{Registers, Wires};
 use incircle_protocol::{Config, Opcode};
 
@@ -44,6 +44,15 @@ pub(super) struct Responder {
 /// Whether the payload has only the vertices of records.
 fn packs(was: &Registers) -> bool {
     was.command.opcode == Opcode::Triangles as u8
+}
+
+/// The form of the payload of a read-out.
+fn form(was: &Registers) -> Form {
+    match was.command.short_ids {
+        _ if !packs(was) => Form::Whole,
+        None => Form::Vertices,
+        Some(ids) => Form::Short(ids),
+    }
 }
 
 impl Responder {
@@ -94,7 +103,7 @@ impl Responder {
         self.wait(was, latencies);
         let beat = was.responder.next_beat(was.command.tag).filter(|_| was.responder.loads(wires.response_ready));
         self.records.clock(Event {
-            packs: packs(was),
+            form: form(was),
             asks: wires.read.is_some(),
             done: wires.record_read,
             takes: was.responder.state == State::Records && beat.is_some(),

@@ -1,6 +1,6 @@
 //! The unfinished work of the model by commands: a command, a range that is read, a run.
 
-use incircle_protocol::{RunKind, Status};
+use incircle_protocol::{RunKind, ShortIds, Status};
 
 /// The meaning of the next word. The model reads commands with code of its own and not with the protocol's
 /// `CommandReader`, because the core's reading is compared with the model's, which must share no code with a
@@ -23,6 +23,8 @@ pub(super) enum Range {
     Records,
     /// The vertices of the records that are not free, counted in the order of their ids.
     Vertices,
+    /// The same, with short ids.
+    ShortVertices(ShortIds),
 }
 
 /// A range that is being read.

@@ -14,6 +14,9 @@ impl CommandModel {
                 (Opcode::Read, length, self.mesh.records().len() as u32)
             }
             Range::Vertices => (Opcode::Triangles, self.layout.triangles_words(count), self.mesh.live_records()),
+            Range::ShortVertices(ids) => {
+                (Opcode::Triangles, u32::try_from(ids.words(count)).ok(), self.mesh.live_records())
+            }
         };
         match (first.checked_add(count), length) {
             (Some(end), Some(length)) if end <= there => {
@@ -37,7 +40,7 @@ impl CommandModel {
     /// Turns the next records of the range being read into words; false if none is left.
     ///
     /// Only a window is converted at a time, so reading a large mesh takes no memory of the mesh's size. The window has
-    /// an even number of records, so that its ids fill whole words.
+    /// a multiple of eight records, so that its ids fill whole words.
     pub(super) fn read_on(&mut self) -> bool {
         const WINDOW: u32 = 4096;
         let Reading { range, next, left } = self.reading;
@@ -61,6 +64,13 @@ impl CommandModel {
                 let mut words = vec![0; length as usize];
                 for (place, record) in window.enumerate() {
                     self.layout.vertices_to_words(record.v, &mut words, place);
+                }
+                self.answers.extend(words);
+            }
+            Range::ShortVertices(ids) => {
+                let mut words = vec![0; usize::try_from(ids.words(count)).unwrap_or(0)];
+                for (place, record) in window.enumerate() {
+                    ids.vertices_to_words(record.v, &mut words, count as usize, place);
                 }
                 self.answers.extend(words);
             }

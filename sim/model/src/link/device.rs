@@ -1,6 +1,6 @@
 //! The device behind a link: it takes and gives words, one clock at a time.
 
-use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, MAGIC, PROTOCOL_VERSION};
+use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, FEATURE_SHORT_IDS, MAGIC, PROTOCOL_VERSION};
 
 use crate::{ChipModel, ClockModel, CommandModel, Inputs, Outputs};
 
@@ -143,6 +143,6 @@ pub fn core_identity(config: Config) -> Identity {
         contexts: config.contexts,
         engines: config.engines,
         ring_capacity: config.ring,
-        features: 0,
+        features: FEATURE_SHORT_IDS,
     }
 }

@@ -1,8 +1,8 @@
 //! Answers of a core as `incircle-protocol` states them, for the blocks that put answers together.
 
 use incircle_protocol::{
-    Identity, InsertReport, Layout, Opcode, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS, LATENCY_BUCKETS,
-    MAGIC, MAX_CONTEXTS, PROTOCOL_VERSION,
+    Identity, InsertReport, Layout, Opcode, ShortIds, Status, CORE_COORD_BITS, CORE_VERSION, COUNTER_WORDS,
+    FEATURE_SHORT_IDS, LATENCY_BUCKETS, MAGIC, MAX_CONTEXTS, PROTOCOL_VERSION,
 };
 use incircle_testkit::SplitMix64;
 
@@ -29,6 +29,7 @@ pub struct Asked {
     pub opcode: u8,
     pub first: u32,
     pub count: u32,
+    pub short_ids: Option<ShortIds>,
     pub is_refused: bool,
     pub engine: u8,
     pub tag: u8,
@@ -56,6 +57,7 @@ impl Asked {
                 // Exactly up to the last record, one less, or one more.
                 _ => rest.wrapping_add(random.below(3) as u32).wrapping_sub(1),
             },
+            short_ids: [None, Some(ShortIds::Ten), Some(ShortIds::Twelve)][random.below(3) as usize],
             is_refused: false,
             engine: word(random) as u8,
             tag: word(random) as u8,
@@ -91,7 +93,11 @@ impl Asked {
             }
             Some(Opcode::Triangles) => {
                 let layout = Layout::of(CORE_COORD_BITS, self.capacity);
-                (Status::Ok, layout.triangles_words(self.count).expect("a range of records"), None)
+                let words = match self.short_ids {
+                    None => layout.triangles_words(self.count).expect("a range of records"),
+                    Some(ids) => ids.words(self.count) as u32,
+                };
+                (Status::Ok, words, None)
             }
             Some(Opcode::Counters) => {
                 let words = vec![self.counter; COUNTER_WORDS];
@@ -111,7 +117,7 @@ impl Asked {
                     contexts: self.contexts,
                     engines: self.engines,
                     ring_capacity: self.ring,
-                    features: 0,
+                    features: FEATURE_SHORT_IDS,
                 };
                 (Status::Ok, 7, Some(identity.to_words().to_vec()))
             }

@@ -3,7 +3,9 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::bundles::Deal;
-use incircle_protocol::{command_meshes, command_starts_batch, command_tag, Opcode, PADDING};
+use incircle_protocol::{
+    command_meshes, command_starts_batch, command_tag, Opcode, PADDING, TRIANGLES_SHORT, TRIANGLES_TWELVE,
+};
 
 /// Capacity of the core, and number of its contexts.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +45,8 @@ pub struct Reference {
     pub wants: VecDeque<Meaning>,
     /// Opcode of the command at work.
     pub opcode: Option<u8>,
+    /// Whether its word asks for short ids, and for those of 12 bits.
+    pub ids: Option<(bool, bool)>,
     pub first: Option<u32>,
     pub count: Option<u32>,
     pub arrived: u32,
@@ -104,6 +108,7 @@ impl Reference {
             Meaning::Command => {
                 let opcode = (word >> 24) as u8;
                 self.opcode = Some(opcode);
+                self.ids = Some((word & TRIANGLES_SHORT != 0, word & TRIANGLES_TWELVE != 0));
                 let asked = word & 0xff;
                 let is_clear = opcode == Opcode::Clear as u8;
                 self.is_refused = Some(is_clear && asked > shape.contexts);

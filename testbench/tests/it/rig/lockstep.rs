@@ -4,8 +4,8 @@
 use incircle::Point;
 use incircle_model::{CommandModel, Inputs};
 use incircle_protocol::{
-    command_word, infinite_vertex, Config, Counter, Layout, Opcode, CORE_COORD_BITS, COUNTER_WORDS, IDENTITY_WORDS,
-    INSERT_REPORT_WORDS, LATENCY_BUCKETS,
+    command_word, infinite_vertex, Config, Counter, Layout, Opcode, ShortIds, CORE_COORD_BITS, COUNTER_WORDS,
+    IDENTITY_WORDS, INSERT_REPORT_WORDS, LATENCY_BUCKETS,
 };
 use incircle_testbench::lockstep::{Job, Lockstep, Mismatch, Stalls};
 use incircle_testkit::{canonical, generate, Distribution, SplitMix64, StoredRecord};
@@ -108,14 +108,26 @@ impl Rig {
     fn compare(&self, points: &[u32], piece: usize, answers: &[u32], expected: &[u32]) {
         let reports = points.chunks(piece.max(1)).len() * (2 + INSERT_REPORT_WORDS);
         let triangles = 2 + IDENTITY_WORDS + 2 + reports;
-        let records = triangles + 2 + answers[triangles + 1] as usize;
+        let behind = |head: usize| head + 2 + answers[head + 1] as usize;
+        let (ten, twelve) = (behind(triangles), behind(behind(triangles)));
+        let records = behind(twelve);
         let latencies = answers.len() - (2 + COUNTER_WORDS) - (2 + LATENCY_BUCKETS);
         assert_eq!(answers.len(), expected.len());
         assert_eq!(answers[2 + IDENTITY_WORDS..triangles + 2], expected[2 + IDENTITY_WORDS..triangles + 2], "reports");
         let layout = Layout::of(CORE_COORD_BITS, self.config.points);
-        for (place, record) in answers[records + 2..latencies].chunks(layout.record_words).enumerate() {
-            let vertices = layout.vertices_from_words(&answers[triangles + 2..records], place);
-            assert_eq!(vertices, layout.record_from_words(record).0, "vertices of record {place}");
+        let stored = answers[records + 2..latencies].chunks(layout.record_words);
+        let count = stored.len();
+        for (place, record) in stored.enumerate() {
+            let expected = layout.record_from_words(record).0;
+            let vertices = layout.vertices_from_words(&answers[triangles + 2..ten], place);
+            assert_eq!(vertices, expected, "vertices of record {place}");
+            for (ids, words) in
+                [(ShortIds::Ten, &answers[ten + 2..twelve]), (ShortIds::Twelve, &answers[twelve + 2..records])]
+            {
+                // Ids keep their low bits, also where they are too large for the form.
+                let low = expected.map(|id| id & ((1 << ids.word_bits()) - 1));
+                assert_eq!(ids.vertices_from_words(words, count, place), low, "{ids:?}, vertices of record {place}");
+            }
         }
         let mesh = |words: &[u32]| {
             let stored = words[records + 2..latencies].chunks(3).map(|words| {

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::rig::stepper::{NamedPorts, Stepper};
-use incircle_protocol::{Layout, CORE_COORD_BITS, MAX_POINTS};
+use incircle_protocol::{Layout, ShortIds, CORE_COORD_BITS, MAX_POINTS};
 use incircle_testkit::SplitMix64;
 
 /// Layout of the words of the largest core.
@@ -64,12 +64,58 @@ impl Columns {
     }
 }
 
-/// The payload of these records, or of their vertices alone, by the protocol's layout.
-pub fn payload_of(records: &[Columns], vertices_alone: bool) -> Vec<u32> {
-    if !vertices_alone {
-        return records.iter().flat_map(Columns::words).collect();
+/// The form of a payload of records.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    Whole,
+    Vertices,
+    Short(ShortIds),
+}
+
+impl Form {
+    pub const ALL: [Self; 4] = [Self::Whole, Self::Vertices, Self::Short(ShortIds::Ten), Self::Short(ShortIds::Twelve)];
+
+    pub fn random(random: &mut SplitMix64) -> Self {
+        Self::ALL[random.below(4) as usize]
     }
-    let length = LAYOUT.triangles_words(records.len() as u32).expect("few records");
+
+    pub fn has_vertices_alone(self) -> bool {
+        self != Self::Whole
+    }
+
+    pub fn has_short_ids(self) -> bool {
+        matches!(self, Self::Short(_))
+    }
+
+    pub fn has_rests(self) -> bool {
+        self == Self::Short(ShortIds::Twelve)
+    }
+
+    /// Sets the ports that choose the form of a payload of records.
+    pub fn set<U: NamedPorts>(self, block: &mut Stepper<U>) {
+        block.set("vertices_alone", self.has_vertices_alone());
+        block.set("has_short_ids", self.has_short_ids());
+        block.set("has_rests", self.has_rests());
+    }
+
+    /// The bits for the ports that choose the form where a command asks for it: the vertices alone, short ids, and those
+    /// of 12 bits. A bit that must not matter is `any`.
+    pub fn asked(self, any: bool) -> [bool; 3] {
+        match self {
+            Self::Whole => [false, any, any],
+            Self::Vertices => [true, false, any],
+            Self::Short(ids) => [true, true, ids == ShortIds::Twelve],
+        }
+    }
+}
+
+/// The payload of these records in this form, by the protocol's layout.
+pub fn payload_of(records: &[Columns], form: Form) -> Vec<u32> {
+    let length = match form {
+        Form::Whole => return records.iter().flat_map(Columns::words).collect(),
+        Form::Short(ids) => return short_payload_of(records, ids),
+        Form::Vertices => LAYOUT.triangles_words(records.len() as u32).expect("few records"),
+    };
     let mut words = vec![0; length as usize];
     for (place, record) in records.iter().enumerate() {
         LAYOUT.vertices_to_words(record.v, &mut words, place);
@@ -77,9 +123,23 @@ pub fn payload_of(records: &[Columns], vertices_alone: bool) -> Vec<u32> {
     words
 }
 
+/// The payload with short ids, bit by bit as `protocol/README.md` says it.
+fn short_payload_of(records: &[Columns], ids: ShortIds) -> Vec<u32> {
+    let mut words = Vec::new();
+    for group in records.chunks(8) {
+        let mut rests = 0;
+        for Columns { v: [a, b, c], .. } in group {
+            words.push(a & 0x3ff | (b & 0x3ff) << 10 | (c & 0x3ff) << 20 | (a >> 10 & 3) << 30);
+            rests = rests >> 4 | (b >> 10 & 3) << 28 | (c >> 10 & 3) << 30;
+        }
+        words.extend((ids == ShortIds::Twelve).then_some(rests));
+    }
+    words
+}
+
 /// The beats of that payload.
-pub fn beats_of(records: &[Columns], vertices_alone: bool) -> VecDeque<Beat> {
-    let words = payload_of(records, vertices_alone);
+pub fn beats_of(records: &[Columns], form: Form) -> VecDeque<Beat> {
+    let words = payload_of(records, form);
     let count = words.len().div_ceil(2);
     let beat = |(place, words): (usize, &[u32])| Beat {
         low: words[0],
@@ -91,6 +151,6 @@ pub fn beats_of(records: &[Columns], vertices_alone: bool) -> VecDeque<Beat> {
 }
 
 /// Whether the record at this place may have a successor in the next clock.
-pub fn leaves_no_rest(place: usize, vertices_alone: bool) -> bool {
-    vertices_alone || place.is_multiple_of(2)
+pub fn leaves_no_rest(place: usize, form: Form) -> bool {
+    form.has_vertices_alone() || place.is_multiple_of(2)
 }

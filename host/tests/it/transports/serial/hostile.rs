@@ -5,10 +5,10 @@ use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use crate::common::board::{cobs_decode, crc32, crc32_more, frame, greeting};
+use crate::common::board::{cobs_decode, crc32, crc32_more, frame, greeting, CAPACITY};
 use crate::common::heap;
 use incircle::transports::parts::{Params, SerialProtocol};
-use incircle_protocol::{Clear, Command, RecordRange};
+use incircle_protocol::{Clear, Command, Layout, RecordRange, ShortIds};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
@@ -108,13 +108,20 @@ fn command() -> impl Strategy<Value = Command<Vec<u32>>> {
         Just(Command::Latencies),
         (0u32..3000).prop_map(insert),
         (any::<u16>(), 0u32..3000).prop_map(|(first, count)| read(u32::from(first), count)),
+        (any::<u16>(), 0u32..3000, 0usize..3).prop_map(|(first, count, form)| {
+            let range = RecordRange { first: u32::from(first), count };
+            let short = |ids| Command::ShortTriangles(range, ids);
+            [Command::Triangles(range), short(ShortIds::Ten), short(ShortIds::Twelve)][form].clone()
+        }),
     ]
 }
 
 /// Most words of the answer to a command.
 fn most_words(command: &Command<Vec<u32>>) -> usize {
     match command {
-        Command::Read(records) => 2 + 3 * records.count as usize,
+        Command::Read(_) | Command::Triangles(_) | Command::ShortTriangles(..) => {
+            2 + command.payload_words(Layout::of(16, CAPACITY)) as usize
+        }
         _ => LONGEST,
     }
 }

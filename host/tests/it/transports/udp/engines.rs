@@ -80,7 +80,7 @@ fn jobs_of_several_engines_survive_every_fault_of_the_network() {
         let (mut repeated, mut restarted) = (0, 0);
         for engines in [2, 4] {
             let seed = 100 * u64::from(engines) + class as u64;
-            let Outcome { met, statistics, time } = batch(engines, faults, seed, &sets(&mut Random(seed), 24, 400));
+            let Outcome { met, statistics, time } = batch(engines, faults, seed, &sets(&mut Random(seed), 80, 400));
             assert!(met > 0, "{faults}");
             println!("{faults}, {engines} engines: {met} faults, {time:?}, {statistics:?}");
             (repeated, restarted) = (repeated + statistics.repeated, restarted + statistics.restarted);

@@ -2,7 +2,7 @@
 
 use crate::common::bench::{Bench, Stalls};
 use crate::common::{sets, Random};
-use incircle_protocol::{command_word, Counter, Layout, Opcode, Status, CORE_COORD_BITS, FULL, TINY};
+use incircle_protocol::{command_word, Counter, Layout, Opcode, ShortIds, Status, CORE_COORD_BITS, FULL, TINY};
 
 /// A core with a mesh of this many points, most of them different, and the number of its records.
 fn filled(points: u32) -> (Bench, u32) {
@@ -67,6 +67,19 @@ fn every_range_has_the_records_of_the_memory() {
         }
         if count % 2 == 1 {
             assert_eq!(answer.payload.last().map(|word| word >> 16), Some(0), "the last half");
+        }
+        for ids in [ShortIds::Ten, ShortIds::Twelve] {
+            let words = [command_word(Opcode::Triangles) | ids.word_bits(), first, count];
+            let answer = bench.run(&words, 1, stalls, 100_000, &mut random).expect("an end").swap_remove(0);
+            assert_eq!(answer.payload.len() as u64, ids.words(count));
+            for (place, record) in range.iter().enumerate() {
+                let (v, _) = layout.record_from_words(record);
+                let short = v.map(|id| ids.infinite(id));
+                let found = ids.vertices_from_words(&answer.payload, count as usize, place);
+                assert_eq!(found, short, "{ids:?}, record {place} of {count} from {first}");
+            }
+            let spare = ids.spare_bits(count as usize);
+            assert!(answer.payload.last().is_none_or(|word| word & spare == 0), "{ids:?}, {count} records");
         }
     }
 }

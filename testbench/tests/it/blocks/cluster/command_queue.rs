@@ -16,12 +16,12 @@ fn command_queue_keeps_the_words_in_order() {
     // Words on offer, and the one that came at the edge before.
     let (mut words, mut came): (VecDeque<u32>, Option<u32>) = (VecDeque::new(), None);
     let mut fullest = 0;
-    for clock in 0..6000 {
-        let reset = clock == 0 || random.below(500) == 0;
+    for clock in 0..20_000 {
+        let reset = clock == 0 || random.below(3000) == 0;
         let waiting = words.len() + usize::from(came.is_some());
         let has_room = waiting < ENGINE_QUEUE_WORDS;
         // The engine is slow, quick, and slow again.
-        let ready = random.below(100) < [10, 90, 40][clock / 300 % 3];
+        let ready = random.below(100) < [10, 90, 40][clock / 900 % 3];
         let push = has_room && random.below(100) < 60;
         let word = random.next_u64() as u32;
         for (port, value) in [("reset", reset), ("push", push), ("command_ready", ready)] {

@@ -4,7 +4,7 @@
 use crate::rig::answer_words::{commands, Answer, Asked};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::AnswerHead;
-use incircle_protocol::{answer_header, signed_header, Opcode, Status};
+use incircle_protocol::{answer_header, signed_header, Opcode, ShortIds, Status};
 use incircle_testkit::SplitMix64;
 
 named_ports!(AnswerHead, [request, clearing, engine, records, collinear, stuck, some_refused], [head], clock);
@@ -16,13 +16,15 @@ fn answer_heads_follow_the_protocol() {
     let mut bad_ranges = 0;
     for (opcode, is_refused, clocks) in commands(&mut random) {
         let mut answers: Vec<Answer> = vec![];
-        let Asked { engine, tag, .. } = Asked::random(&mut random);
+        let Asked { engine, tag, short_ids, .. } = Asked::random(&mut random);
         for clock in 0..clocks {
-            let asked = Asked { opcode, is_refused, engine, tag, ..Asked::random(&mut random) };
+            let asked = Asked { opcode, is_refused, engine, tag, short_ids, ..Asked::random(&mut random) };
             for (port, value) in [
                 ("opcode", u32::from(asked.opcode)),
                 ("first", asked.first),
                 ("count", asked.count),
+                ("request_has_short_ids", asked.short_ids.is_some().into()),
+                ("request_has_rests", (asked.short_ids == Some(ShortIds::Twelve)).into()),
                 ("is_refused", asked.is_refused.into()),
                 ("tag", asked.tag.into()),
                 ("engine", asked.engine.into()),
@@ -37,6 +39,8 @@ fn answer_heads_follow_the_protocol() {
             answers.push(asked.answer());
             block.expect("is_read", [Opcode::Read as u8, Opcode::Triangles as u8].contains(&opcode));
             block.expect("is_packed", opcode == Opcode::Triangles as u8);
+            block.expect("head_has_short_ids", asked.short_ids.is_some());
+            block.expect("head_has_rests", asked.short_ids == Some(ShortIds::Twelve));
             if clock >= 3 {
                 let answer = &answers[clock - 3];
                 bad_ranges += u32::from(answer.status == Status::BadRange);

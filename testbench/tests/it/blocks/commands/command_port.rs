@@ -20,7 +20,11 @@ named_ports!(
 fn command(random: &mut SplitMix64) -> Vec<u32> {
     match random.below(14) {
         12 => vec![PADDING; 1 + random.below(3) as usize],
-        13 => vec![command_word(Opcode::Triangles), random.next_u64() as u32, random.next_u64() as u32],
+        13 => vec![
+            command_word(Opcode::Triangles) | random.below(16) as u32,
+            random.next_u64() as u32,
+            random.next_u64() as u32,
+        ],
         0 => vec![command_word(Opcode::Hello)],
         1 | 2 => {
             let contexts = [0, random.below(6) as u32, random.below(300) as u32][random.below(3) as usize];
@@ -169,6 +173,8 @@ impl Rig {
             ("opcode", reference.opcode.map(u32::from)),
             ("first", reference.first),
             ("count", reference.count),
+            ("has_short_ids", reference.ids.map(|(is_short, _)| is_short.into())),
+            ("has_rests", reference.ids.map(|(_, has_rests)| has_rests.into())),
             ("is_refused", reference.is_refused.map(u32::from)),
             ("tag", Some(reference.tag.into())),
             ("arrived", Some(reference.arrived)),

@@ -1,20 +1,25 @@
 //! Runs `RecordPacker` in Rust and in Verilog beside the layout that the protocol states: all three must agree, while
 //! idle clocks, back-pressure and resets come in between.
 
-use crate::rig::record_beats::{beats_of, leaves_no_rest, Beat, Columns};
+use crate::rig::record_beats::{beats_of, leaves_no_rest, Beat, Columns, Form};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::commands::RecordPacker;
 use incircle_testkit::SplitMix64;
 
-named_ports!(RecordPacker, [reset, starts, count, vertices_alone, comes, halves], [valid, beat], clock);
+named_ports!(
+    RecordPacker,
+    [reset, starts, count, vertices_alone, has_short_ids, has_rests, comes, halves, rest],
+    [valid, beat],
+    clock
+);
 
 const HALVES: [&str; 6] = ["half0", "half1", "half2", "half3", "half4", "half5"];
 
-fn start(block: &mut Stepper<RecordPacker>, count: usize, vertices_alone: bool, reset: bool) {
+fn start(block: &mut Stepper<RecordPacker>, count: usize, form: Form, reset: bool) {
     block.set("comes", false);
     block.set("starts", true);
     block.set("count", count as u32);
-    block.set("vertices_alone", vertices_alone);
+    form.set(block);
     block.set("reset", reset);
     block.settle();
     block.edge();
@@ -22,14 +27,17 @@ fn start(block: &mut Stepper<RecordPacker>, count: usize, vertices_alone: bool, 
     block.set("reset", false);
 }
 
-/// The halves that a record brings; those of a whole record that are no ids must not matter.
-fn halves(record: Columns, vertices_alone: bool) -> [u32; 6] {
+/// The halves that a record brings; those that do not count have those of a whole record.
+fn halves(record: Columns, form: Form) -> [u32; 6] {
     let [a, b, c] = record.words().map(|word| [word & 0xffff, word >> 16]);
     let [v0, v1, v2] = record.v;
-    if vertices_alone {
-        [v0, v1, v2, b[1], c[0], c[1]]
-    } else {
-        [a[0], a[1], b[0], b[1], c[0], c[1]]
+    match form {
+        Form::Whole => [a[0], a[1], b[0], b[1], c[0], c[1]],
+        Form::Vertices => [v0, v1, v2, b[1], c[0], c[1]],
+        Form::Short(_) => {
+            let low = v0 & 0x3ff | (v1 & 0x3ff) << 10 | (v2 & 0x3ff) << 20 | (v0 >> 10 & 3) << 30;
+            [low & 0xffff, low >> 16, b[0], b[1], c[0], c[1]]
+        }
     }
 }
 
@@ -38,10 +46,10 @@ fn packer_leaves_no_gap() {
     let mut random = SplitMix64::new(41);
     let mut block = Stepper::new("record_packer", RecordPacker::default(), 1);
     for run in 0..800u64 {
-        let vertices_alone = random.below(2) == 0;
+        let form = Form::random(&mut random);
         let records: Vec<Columns> = (0..1 + random.below(14)).map(|_| Columns::random(&mut random)).collect();
-        start(&mut block, records.len(), vertices_alone, run == 0);
-        let mut expected = beats_of(&records, vertices_alone);
+        start(&mut block, records.len(), form, run == 0);
+        let mut expected = beats_of(&records, form);
         let mut rest = records.iter().enumerate();
         // Every ninth run is cut short by a reset.
         let cut = if run % 9 == 8 { random.below(12) } else { 1000 };
@@ -49,12 +57,14 @@ fn packer_leaves_no_gap() {
         while !expected.is_empty() && clock < cut {
             let comes = may_come && random.below([1, 3][(run % 2) as usize]) == 0;
             let next = if comes { rest.next() } else { None };
-            may_come = next.is_none_or(|(place, _)| leaves_no_rest(place, vertices_alone));
+            may_come = next.is_none_or(|(place, _)| leaves_no_rest(place, form));
             block.set("comes", next.is_some());
-            let brought = next.map_or([0x1234; 6], |(_, record)| halves(*record, vertices_alone));
+            let brought = next.map_or([0x1234; 6], |(_, record)| halves(*record, form));
             for (port, half) in HALVES.into_iter().zip(brought) {
                 block.set(port, half);
             }
+            let bits = next.map_or(5, |(_, Columns { v: [_, b, c], .. })| b >> 10 & 3 | (c >> 10 & 3) << 2);
+            block.set("rest", bits);
             block.settle();
             if block.is("valid") {
                 let beat = Beat::of(block.get("beat"));
@@ -66,7 +76,7 @@ fn packer_leaves_no_gap() {
             clock += 1;
         }
         if cut < 1000 {
-            start(&mut block, 1, vertices_alone, true);
+            start(&mut block, 1, form, true);
             block.settle();
             assert!(!block.is("valid"), "a beat survived the reset");
         }
@@ -89,7 +99,8 @@ fn packer_shows_the_wave_of_its_header() {
         if starts {
             next = 1;
         }
-        block.set("vertices_alone", vertices_alone);
+        let form = if vertices_alone { Form::Vertices } else { Form::Whole };
+        form.set(&mut block);
         block.set("starts", starts);
         block.set("count", if vertices_alone { 5u32 } else { 3 });
         block.set("comes", comes);

@@ -3,14 +3,14 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::record_beats::{beats_of, Beat, Columns};
+use crate::rig::record_beats::{beats_of, Beat, Columns, Form};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::commands::{RecordReads, RecordStream};
 use incircle_testkit::SplitMix64;
 
 named_ports!(
     RecordReads,
-    [reset, starts, first, count, is_packed, runs, read_done, record, takes],
+    [reset, starts, first, count, is_packed, has_short_ids, has_rests, runs, read_done, record, takes],
     [read, read_id, valid, beat],
     clock
 );
@@ -21,15 +21,18 @@ fn reads_give_the_words_of_records_or_their_vertices() {
         let mut random = SplitMix64::new(seed);
         let mut block = Stepper::new("record_reads", RecordReads::default(), 1);
         for run in 0..80 {
-            let is_packed = random.below(2) == 0;
+            let form = Form::random(&mut random);
+            let asked = form.asked(random.below(2) == 0);
             let count = 1 + random.below(60) as u32;
             let first = random.below(u64::from((1u32 << 15) - count)) as u32;
             let records: Vec<Columns> = (first..first + count).map(Columns::of).collect();
-            let mut expected = beats_of(&records, is_packed);
+            let mut expected = beats_of(&records, form);
             for reset in [run == 0 || random.below(9) == 0, false] {
                 block.set("reset", reset);
                 block.set("starts", !reset);
-                block.set("is_packed", is_packed);
+                for (port, bit) in ["is_packed", "has_short_ids", "has_rests"].into_iter().zip(asked) {
+                    block.set(port, bit);
+                }
                 block.set("first", first);
                 block.set("count", count);
                 block.set("runs", false);
@@ -42,7 +45,7 @@ fn reads_give_the_words_of_records_or_their_vertices() {
             block.set("runs", true);
             let mut reads: VecDeque<Option<u32>> =
                 vec![None; 1 + random.below(RecordStream::PATIENCE as u64) as usize].into();
-            let (mut asked, mut clock) = (first, 0);
+            let (mut next, mut clock) = (first, 0);
             let cut = if run % 10 == 9 { random.below(30) } else { 40_000 };
             while !expected.is_empty() && clock < cut {
                 block.set("takes", false);
@@ -52,10 +55,10 @@ fn reads_give_the_words_of_records_or_their_vertices() {
                 block.settle();
                 let reads_now = block.is("read");
                 if reads_now {
-                    block.expect("read_id", asked);
-                    asked += 1;
+                    block.expect("read_id", next);
+                    next += 1;
                 }
-                reads.push_back(reads_now.then(|| asked - 1));
+                reads.push_back(reads_now.then(|| next - 1));
                 let valid = block.is("valid");
                 if valid {
                     assert_eq!(Beat::of(block.get("beat")), expected[0], "run {run}");
@@ -80,7 +83,7 @@ fn reads_give_the_words_of_records_or_their_vertices() {
                 block.edge();
                 block.set("reset", false);
             } else {
-                assert_eq!(asked, first + count, "every record is read once");
+                assert_eq!(next, first + count, "every record is read once");
             }
         }
     }

@@ -4,10 +4,10 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::record_beats::{payload_of, Columns};
+use crate::rig::record_beats::{payload_of, Columns, Form};
 use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::commands::{RecordStream, Responder};
-use incircle_protocol::LATENCY_BUCKETS;
+use incircle_protocol::{ShortIds, LATENCY_BUCKETS};
 use incircle_testkit::SplitMix64;
 
 named_ports!(
@@ -32,9 +32,9 @@ fn word(random: &mut SplitMix64) -> u32 {
 struct Sent {
     header: u32,
     payload: Vec<u32>,
-    /// For a read, its first record and number of records; the payload then has their words, or their vertices alone.
+    /// For a read, its first record and number of records; the payload then has them in this form.
     range: Option<(u32, u32)>,
-    is_packed: bool,
+    form: Option<Form>,
 }
 
 impl Sent {
@@ -44,7 +44,7 @@ impl Sent {
         match random.below(4) {
             0..3 => {
                 let count = [random.below(8), random.below(64)][random.below(2) as usize];
-                Self::read_out(header, first as u32, count as u32, random.below(2) == 0)
+                Self::read_out(header, first as u32, count as u32, Form::random(random))
             }
             _ => {
                 let most = [15, LATENCY_BUCKETS as u64 + 1][random.below(2) as usize];
@@ -54,9 +54,9 @@ impl Sent {
     }
 
     /// Makes the answer to a read of records.
-    fn read_out(header: u32, first: u32, count: u32, is_packed: bool) -> Self {
+    fn read_out(header: u32, first: u32, count: u32, form: Form) -> Self {
         let records: Vec<Columns> = (first..first + count).map(Columns::of).collect();
-        Self { header, payload: payload_of(&records, is_packed), range: Some((first, count)), is_packed }
+        Self { header, payload: payload_of(&records, form), range: Some((first, count)), form: Some(form) }
     }
 
     fn words(&self) -> Vec<u32> {
@@ -165,7 +165,10 @@ impl ResponderRig {
         block.set("length", if is_good { sent.payload.len() as u64 } else { 0xbad });
         block.set("is_empty", is_good == sent.payload.is_empty());
         block.set("is_read", sent.range.is_some());
-        block.set("is_packed", sent.is_packed);
+        let asked = sent.form.unwrap_or(Form::Whole).asked(self.random.below(2) == 0);
+        for (port, bit) in ["is_packed", "head_has_short_ids", "head_has_rests"].into_iter().zip(asked) {
+            block.set(port, bit);
+        }
         // Bits above those of an id must not matter.
         let (first, count) = sent.range.unwrap_or((0, 77));
         block.set("first", first | 0xabcd_0000);
@@ -306,14 +309,23 @@ fn responder_is_as_fast_as_it_says() {
         }
         ends
     };
-    let ends = ends_of(&[2, 4, 1004].map(|count| Sent::read_out(7, 3, count, false)));
+    let ends = ends_of(&[2, 4, 1004].map(|count| Sent::read_out(7, 3, count, Form::Whole)));
     assert_eq!([ends[1] - ends[0], ends[2] - ends[0]], [3, 1503], "three clocks for two whole records");
     let ends = ends_of(&[1, 25].map(|count| Sent { header: 8, payload: vec![5; count], ..Sent::default() }));
     assert_eq!(ends[1] - ends[0], 24 * 3, "clocks a word");
-    let ends = ends_of(&[4, 8, 1004].map(|count| Sent::read_out(9, 3, count, true)));
-    assert_eq!([ends[1] - ends[0], ends[2] - ends[0]], [4, 1000], "clocks of as many records");
-    for (is_packed, clocks) in [(false, 7), (true, 8)] {
-        let (_, [header, first]) = rig.answer(&Sent::read_out(9, 3, 4, is_packed));
+    for form in [Form::Vertices, Form::Short(ShortIds::Ten), Form::Short(ShortIds::Twelve)] {
+        let mut ends_of = |counts: [u32; 2]| {
+            counts.map(|count| {
+                let (end, _) = rig.answer(&Sent::read_out(9, 3, count, form));
+                rig.clock(false, &Sent::default());
+                end
+            })
+        };
+        let ends = ends_of([16, 1008]);
+        assert_eq!(ends[1] - ends[0], 992, "clocks of as many records, {form:?}");
+    }
+    for (form, clocks) in [(Form::Whole, 7), (Form::Vertices, 8)] {
+        let (_, [header, first]) = rig.answer(&Sent::read_out(9, 3, 4, form));
         rig.clock(false, &Sent::default());
         assert_eq!(first - header, clocks, "from the header to the first beat of records");
     }
@@ -335,7 +347,7 @@ fn responder_begins_no_answer_in_a_sweep() {
 #[test]
 fn responder_shows_the_wave_of_its_header() {
     let mut rig = ResponderRig::new(100, READ_CLOCKS);
-    let sent = Sent::read_out(7, 5, 3, false);
+    let sent = Sent::read_out(7, 5, 3, Form::Whole);
     let mut answers = false;
     for clock in 0..20 {
         rig.ready = if (5..7).contains(&clock) { 0 } else { 100 };

@@ -23,7 +23,7 @@ fn greeting_is_that_of_the_page() {
         16,
         SMALL.points,
         1 << 8 | SMALL.contexts,
-        SMALL.ring,
+        2 << 16 | SMALL.ring,
     ];
     for index in 0..52 {
         block.set("index", index as u32);

@@ -22,7 +22,7 @@ fn greets_and_answers(pins: impl Pins) {
     );
     assert_eq!(
         (words[6], words[10], words[11], words[12]),
-        (0x696e_4369, SMALL.points, 1 << 8 | SMALL.contexts, SMALL.ring)
+        (0x696e_4369, SMALL.points, 1 << 8 | SMALL.contexts, 2 << 16 | SMALL.ring)
     );
     rig.open();
     rig.data(0, &[0x0100_0003]);

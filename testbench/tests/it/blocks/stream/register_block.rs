@@ -147,7 +147,7 @@ impl Block {
             CoordBits => CORE_COORD_BITS,
             Capacity => SMALL.points,
             Contexts => 1 << 8 | SMALL.contexts,
-            Ring => SMALL.ring,
+            Ring => 2 << 16 | SMALL.ring,
             BeatBits => 64,
             FifoBeats => STREAM_FIFO_BEATS,
             Control => u32::from(self.status[0]),
