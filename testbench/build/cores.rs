@@ -4,7 +4,7 @@ use incircle_hdl::export;
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, FULL, LARGE, SMALL, TINY};
 
-use super::faults::{Fault, Piece, FAULTS};
+use super::faults::{Fault, Piece, FAULTS, QUESTION_FAULTS};
 
 const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const LONG_LIST: Config = Config { ring: 64, contexts: 8, ..SMALL };
@@ -39,8 +39,9 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_dual_tiny", core(DUAL_TINY)),
         ("core_quad_tiny", core(QUAD_TINY)),
         ("faulty_core_dual", with_broken_engine(DUAL_OF_64)),
-        ("faulty_core_small", with_switches(SMALL)),
-        ("faulty_core_long_list", with_switches(LONG_LIST)),
+        ("faulty_core_small", with_switches(&core(SMALL), FAULTS)),
+        ("faulty_core_long_list", with_switches(&core(LONG_LIST), FAULTS)),
+        ("faulty_core_questions", with_switches(&with_questions(TINY), QUESTION_FAULTS)),
     ]
 }
 
@@ -52,16 +53,16 @@ fn with_questions(config: Config) -> String {
     export::core_with_questions(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
 }
 
-/// A core with every fault in its Verilog, each behind a switch: one bit of the port `faults` of the root module.
-fn with_switches(config: Config) -> String {
+/// A core with all these faults in its Verilog, each behind a switch: one bit of the port `faults` of the root module.
+fn with_switches(sound: &str, faults: &[Fault]) -> String {
     let replaced = |text: &str, what: &str, place: &str, new: &str| {
         let places = text.matches(place).count();
         assert_eq!(places, 1, "{what}: the Verilog holds {place:?} {places} times, not once");
         text.replace(place, new)
     };
     let head = format!("module {CORE_NAME} (\n");
-    let mut text = replaced(&core(config), "ports", &head, &format!("{head}    input wire [63:0] faults,\n"));
-    for (place, Fault { name, pieces }) in FAULTS.iter().enumerate() {
+    let mut text = replaced(sound, "ports", &head, &format!("{head}    input wire [63:0] faults,\n"));
+    for (place, Fault { name, pieces }) in faults.iter().enumerate() {
         for Piece { around, sound, broken } in *pieces {
             let switched = format!("({CORE_NAME}.faults[{place}] ? ({broken}) : ({sound}))");
             text = replaced(&text, name, &around.replace('@', sound), &around.replace('@', &switched));

@@ -23,7 +23,7 @@ use super::types::{
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
 use crate::mesh::ReadRecord;
-use crate::predicate::EdgeFlags;
+use crate::predicate::Sides;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -51,14 +51,14 @@ pub struct InsertionEngine {
     /// The events of this edge, for the counters.
     pub events: Signal<Out, Events>,
     /// In a core that answers questions: a run of them is under way, which it is only while the engine is quiet. All
-    /// visits are theirs then. A question asks for the visit, or begins with a place; and the visit that completes, with
-    /// the signs of its orient2d for the corners as stored.
+    /// visits are theirs then. A question asks for the visit, or begins with a place; and the visit that completes,
+    /// with signs and values of its three orient2d, for the corners as stored.
     pub question_runs: Vec<Signal<In, Bit>>,
     pub question_asks: Vec<Signal<In, Bit>>,
     pub question: Vec<Signal<In, Bundle>>,
     pub question_place: Vec<Signal<In, Position>>,
     pub completed: Vec<Signal<Out, Completion>>,
-    pub sides: Vec<Signal<Out, EdgeFlags>>,
+    pub sides: Vec<Signal<Out, Sides>>,
     insertions: Insertions,
     pipeline: VisitPipeline,
     solo: Solo,

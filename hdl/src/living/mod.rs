@@ -5,6 +5,8 @@
 
 mod item_dealer;
 mod item_queues;
+mod named_vertices;
+mod part_beat;
 mod part_queue;
 mod question_step;
 mod questions;

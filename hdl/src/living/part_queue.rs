@@ -1,8 +1,8 @@
 //! The answer to a run: its head, and the parts in the order in which their items end.
 //!
-//! 1. A part has four words: outcome and number of the item, and three vertices. Two words leave in each clock.
+//! 1. A part has as many beats as the head says, of two words each, and one beat leaves in each clock.
 //! 2. An item begins only if there is a place for its part (`has_room`), so a part that comes always has one. The place
-//!    is free again when the last word of the part is on offer.
+//!    is free again when the last beat of the part is on offer.
 //! 3. `head` comes while no answer is under way, and before the first part of its answer.
 //! 4. A beat on offer stays until it is taken; `response_valid` does not wait for `response_ready`. A reset drops the
 //!    answer.
@@ -21,7 +21,8 @@
 //! is_over         /^^\____________________/^^^^^^^^
 //! ```
 
-use super::types::{Finding, Part, PartCame, RunHead, PART_ADDRESS_BITS, PART_BITS};
+use super::part_beat::PartBeat;
+use super::types::{BeatNumber, Part, PartCame, RunHead, PART_ADDRESS_BITS, PART_BITS};
 use crate::commands::types::Word;
 use crate::commands::{AnswerBeat, AnswerSource, WordPair, WORD_PAIR_BITS};
 use crate::leaf::{Fifo, Unpack};
@@ -52,12 +53,12 @@ pub struct PartQueue {
     /// Number of parts that are still to leave, and whether there are any.
     left: DFF<Word>,
     some_are_left: DFF<Bit>,
-    /// The first beat of a part has been loaded.
-    at_second: DFF<Bit>,
+    /// Number of the next beat in its part.
+    beat: DFF<BeatNumber>,
     valid: DFF<Bit>,
     offered: DFF<AnswerBeat>,
+    words: PartBeat,
     part: Signal<Local, Part>,
-    finding: Signal<Local, Finding>,
     part_bits: Signal<Local, Bits<PART_BITS>>,
     pair: Signal<Local, WordPair>,
     pair_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
@@ -65,33 +66,26 @@ pub struct PartQueue {
     loads_head: Signal<Local, Bit>,
     loads_part: Signal<Local, Bit>,
     leaves: Signal<Local, Bit>,
+    ends_part: Signal<Local, Bit>,
     is_last: Signal<Local, Bit>,
-    wide_outcome: Signal<Local, Word>,
-    shifted_outcome: Signal<Local, Word>,
-    wide_number: Signal<Local, Word>,
     next_places: Signal<Local, Bits<6>>,
-    outcome_shift: Signal<Local, Word>,
     one: Signal<Local, Word>,
+    one_beat: Signal<Local, BeatNumber>,
     one_place: Signal<Local, Bits<6>>,
     all_places: Signal<Local, Bits<6>>,
 }
 
-// The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
-const _: () = assert!(
-    incircle_protocol::OUTCOME_SHIFT == 24
-        && incircle_protocol::RunKind::Locate.part_words() == 4
-        && PART_ADDRESS_BITS == 5,
-    "the words of this block follow the protocol"
-);
+// The kernel holds the number of places as a literal, because rust-hdl allows no constants there.
+const _: () = assert!(PART_ADDRESS_BITS == 5, "the kernel of this block is for 32 parts");
 
 impl Logic for PartQueue {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, kept, places, is_full, announced, head_is_due, left, some_are_left, at_second);
+        dff_setup!(self, clock, kept, places, is_full, announced, head_is_due, left, some_are_left, beat);
         dff_setup!(self, clock, valid, offered);
         clock!(self, clock, parts);
-        self.outcome_shift.next = 24.into();
         self.one.next = 1.into();
+        self.one_beat.next = 1.into();
         self.one_place.next = 1.into();
         self.all_places.next = 32.into();
         self.pair.next.low = self.offered.q.val().low;
@@ -116,13 +110,12 @@ impl Logic for PartQueue {
 
         self.loads_head.next = self.loads.val() & self.head_is_due.q.val();
         self.loads_part.next = self.loads.val() & (!self.head_is_due.q.val()) & self.parts.valid.val();
-        self.leaves.next = self.loads_part.val() & self.at_second.q.val();
+        self.ends_part.next = self.beat.q.val() == self.announced.q.val().last_beat;
+        self.leaves.next = self.loads_part.val() & self.ends_part.val();
         self.parts.pop.next = self.leaves.val();
         self.is_last.next = self.left.q.val() == self.one.val();
-        self.finding.next = self.first.value.val().finding;
-        self.wide_outcome.next = bit_cast::<32, 4>(self.finding.val().outcome);
-        self.shifted_outcome.next = self.wide_outcome.val() << self.outcome_shift.val();
-        self.wide_number.next = bit_cast::<32, 24>(self.first.value.val().number);
+        self.words.part.next = self.first.value.val();
+        self.words.beat.next = self.beat.q.val();
         self.valid.d.next = self.valid.q.val() & (!self.loads.val());
         if self.loads_head.val() {
             self.valid.d.next = true;
@@ -134,17 +127,13 @@ impl Logic for PartQueue {
         }
         if self.loads_part.val() {
             self.valid.d.next = true;
-            self.at_second.d.next = !self.at_second.q.val();
-            self.offered.d.next.low = self.shifted_outcome.val() | self.wide_number.val();
-            self.offered.d.next.high = bit_cast::<32, 15>(self.finding.val().v0);
-            self.offered.d.next.last = false;
-            if self.at_second.q.val() {
-                self.offered.d.next.low = bit_cast::<32, 15>(self.finding.val().v1);
-                self.offered.d.next.high = bit_cast::<32, 15>(self.finding.val().v2);
-                self.offered.d.next.last = self.is_last.val();
-            }
+            self.beat.d.next = self.beat.q.val() + self.one_beat.val();
+            self.offered.d.next.low = self.words.low.val();
+            self.offered.d.next.high = self.words.high.val();
+            self.offered.d.next.last = self.ends_part.val() & self.is_last.val();
         }
         if self.leaves.val() {
+            self.beat.d.next = 0.into();
             self.left.d.next = self.left.q.val() - self.one.val();
             self.some_are_left.d.next = !self.is_last.val();
         }
@@ -170,7 +159,7 @@ impl Logic for PartQueue {
             self.is_full.d.next = false;
             self.head_is_due.d.next = false;
             self.some_are_left.d.next = false;
-            self.at_second.d.next = false;
+            self.beat.d.next = 0.into();
             self.valid.d.next = false;
         }
     }

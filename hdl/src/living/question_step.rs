@@ -2,9 +2,7 @@
 //!
 //! 1. A walk goes on until it has reached the record that holds the place. That is a triangle with the place on the
 //!    right of no side, or a ghost triangle whose hull edge has the place strictly beyond.
-//! 2. In a triangle, the sides with the place on their line say what the place is: with none, the place lies inside the
-//!    triangle; with one, inside the edge between the other two corners; with two, on the corner opposite the third
-//!    side. The vertices that remain are named in the order of their slots.
+//! 2. In a triangle, [`NamedVertices`] says what the place is.
 //! 3. From a ghost triangle the search goes on to the ghost triangle before it on the hull, as long as that one sees
 //!    the place too. The answer is the hull edge of the last ghost triangle that does, counter-clockwise on the hull. A
 //!    visit of this search has 1 as `entry`, and as `cavity_record` the end of the hull edge of the ghost triangle that
@@ -13,16 +11,17 @@
 //!
 //! Latency: none, the block is combinational.
 
+use super::named_vertices::NamedVertices;
 use super::types::Finding;
 use crate::engine::types::{Bundle, Completion, RingEntry, TriangleId, Turned, Verdict, VertexId, Visit};
-use crate::predicate::EdgeFlags;
+use crate::predicate::Sides;
 use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
 pub struct QuestionStep {
-    /// The visit that completes, and the signs of its three orient2d, for the corners as stored.
+    /// The visit that completes, and signs and values of its three orient2d, for the corners as stored.
     pub completion: Signal<In, Completion>,
-    pub sides: Signal<In, EdgeFlags>,
+    pub sides: Signal<In, Sides>,
     /// Another visit follows, and that visit.
     pub asks: Signal<Out, Bit>,
     pub bundle: Signal<Out, Bundle>,
@@ -31,6 +30,7 @@ pub struct QuestionStep {
     /// The item ends, with this finding.
     pub ends: Signal<Out, Bit>,
     pub finding: Signal<Out, Finding>,
+    named: NamedVertices,
     visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
     verdict: Signal<Local, Verdict>,
@@ -91,40 +91,17 @@ impl Logic for QuestionStep {
         self.asks.next = self.completion.val().done & (!self.stands.val()) & (!self.passes_by.val());
         self.arrives.next = self.completion.val().done & self.verdict.val().located & (!self.is_search.val());
 
-        self.finding.next.outcome = 3.into();
-        self.finding.next.v0 = self.turned.val().v0;
-        self.finding.next.v1 = self.turned.val().v1;
-        self.finding.next.v2 = self.turned.val().v2;
-        if self.sides.val().e0_zero | self.sides.val().e1_zero | self.sides.val().e2_zero {
-            self.finding.next.outcome = 2.into();
-            self.finding.next.v2 = 0.into();
-        }
-        if self.sides.val().e1_zero {
-            self.finding.next.v1 = self.turned.val().v2;
-        }
-        if self.sides.val().e0_zero {
-            self.finding.next.v0 = self.turned.val().v1;
-            self.finding.next.v1 = self.turned.val().v2;
-        }
-        if (self.sides.val().e0_zero & self.sides.val().e1_zero)
-            | (self.sides.val().e0_zero & self.sides.val().e2_zero)
-            | (self.sides.val().e1_zero & self.sides.val().e2_zero)
-        {
-            self.finding.next.outcome = 1.into();
-            self.finding.next.v1 = 0.into();
-            self.finding.next.v0 = self.turned.val().v0;
-            if !self.sides.val().e1_zero {
-                self.finding.next.v0 = self.turned.val().v1;
-            }
-            if !self.sides.val().e2_zero {
-                self.finding.next.v0 = self.turned.val().v2;
-            }
-        }
+        self.named.turned.next = self.turned.val();
+        self.named.sides.next = self.sides.val();
+        self.finding.next = self.named.finding.val();
         if self.is_search.val() {
             self.finding.next.outcome = 4.into();
             self.finding.next.v0 = self.hull_end.val();
             self.finding.next.v1 = self.visit.val().cavity_record;
             self.finding.next.v2 = 0.into();
+            self.finding.next.w0 = 0.into();
+            self.finding.next.w1 = 0.into();
+            self.finding.next.w2 = 0.into();
         }
     }
 }

@@ -27,7 +27,7 @@ use crate::engine::types::{
     TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
-use crate::predicate::EdgeFlags;
+use crate::predicate::Sides;
 use crate::prelude::*;
 use incircle_protocol::Config;
 
@@ -46,9 +46,9 @@ pub struct Questions {
     pub has_mesh: Signal<In, Bit>,
     pub command: CommandSink,
     pub response: AnswerSource,
-    /// The visit of a question that completes, and the signs of its three orient2d, for the corners as stored.
+    /// The visit of a question that completes, and signs and values of its three orient2d, for the corners as stored.
     pub completion: Signal<In, Completion>,
-    pub sides: Signal<In, EdgeFlags>,
+    pub sides: Signal<In, Sides>,
     pub push: Signal<Out, Push>,
     /// The place of the item that begins, and its context.
     pub position: Signal<Out, Position>,

@@ -1,13 +1,14 @@
 //! The head of the answer to a run.
 //!
-//! 1. An answer has four words for each item (`Locate`). The answer to a run that is refused, with another status than
-//!    0, is its head alone.
+//! 1. An answer has four words for each item of a `Locate` (8), and ten for each item of an `Interpolate` (9). The
+//!    answer to a run that is refused, with another status than 0, is its head alone.
 //! 2. A run is too long if the words of its answer cannot be counted in 32 bits.
 //!
 //! Latency: none, the block is combinational.
 
 use super::types::RunHead;
 use crate::commands::types::Word;
+use incircle_protocol::{Opcode, RunKind};
 use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
@@ -25,26 +26,41 @@ pub struct RunAnswer {
     shifted_status: Signal<Local, Word>,
     wide_code: Signal<Local, Word>,
     shifted_code: Signal<Local, Word>,
-    top: Signal<Local, Word>,
+    is_weighed: Signal<Local, Bit>,
+    most: Signal<Local, Word>,
+    one: Signal<Local, Word>,
     two: Signal<Local, Word>,
-    top_shift: Signal<Local, Word>,
+    three: Signal<Local, Word>,
     status_shift: Signal<Local, Word>,
     code_shift: Signal<Local, Word>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
-const _: () =
-    assert!(incircle_protocol::RunKind::Locate.part_words() == 4, "the numbers of this block follow the protocol");
+const _: () = {
+    let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words()];
+    assert!(words[0] == 4 && words[1] == 10, "the numbers of this block follow the protocol");
+    assert!(u32::MAX / 4 == 1_073_741_823 && u32::MAX / 10 == 429_496_729, "the most items that can be counted");
+    assert!(Opcode::Locate as u8 & 1 == 0 && Opcode::Interpolate as u8 & 1 == 1, "the low bit of the opcode decides");
+};
 
 impl Logic for RunAnswer {
     #[hdl_gen]
     fn update(&mut self) {
+        self.one.next = 1.into();
         self.two.next = 2.into();
-        self.top_shift.next = 30.into();
+        self.three.next = 3.into();
         self.status_shift.next = 16.into();
         self.code_shift.next = 24.into();
-        self.top.next = self.count.val() >> self.top_shift.val();
-        self.is_too_long.next = self.top.val().any();
+        self.is_weighed.next = self.code.val().get_bit(0);
+        self.most.next = 1073741823.into();
+        self.head.next.length = self.count.val() << self.two.val();
+        self.head.next.last_beat = 1.into();
+        if self.is_weighed.val() {
+            self.most.next = 429496729.into();
+            self.head.next.length = (self.count.val() << self.three.val()) + (self.count.val() << self.one.val());
+            self.head.next.last_beat = 4.into();
+        }
+        self.is_too_long.next = self.most.val() < self.count.val();
 
         self.wide_code.next = bit_cast::<32, 8>(self.code.val());
         self.shifted_code.next = self.wide_code.val() << self.code_shift.val();
@@ -53,7 +69,6 @@ impl Logic for RunAnswer {
         self.head.next.valid = self.gives.val();
         self.head.next.header =
             self.shifted_code.val() | self.shifted_status.val() | bit_cast::<32, 16>(self.signature.val());
-        self.head.next.length = self.count.val() << self.two.val();
         self.head.next.parts = self.count.val();
         if self.status.val().any() {
             self.head.next.length = 0.into();

@@ -6,6 +6,8 @@ use rust_hdl_core::prelude::*;
 
 /// The number of an item in its run, modulo 2^24: the low bits of the first word of a part.
 pub type ItemNumber = Bits<24>;
+/// The number of a beat in its part.
+pub type BeatNumber = Bits<3>;
 /// Number of bits that number the items which wait for a context: 32 at most. With 16, contexts that meet a run of long
 /// walks hold up the stream of items: `Locate` at 8,000 uniform points takes 6 % more cycles.
 pub const DEPTH_BITS: usize = 5;
@@ -44,12 +46,16 @@ crate::packed! {
         pub context: ContextId,
     }
 
-    /// The outcome of a question and the vertices that it names. Vertices that it does not name are 0.
+    /// The outcome of a question and the vertices that it names, each with its weight. Vertices that it does not name
+    /// are 0, and so are their weights and all weights outside the hull.
     pub struct Finding {
         pub outcome: Bits<4>,
         pub v0: VertexId,
         pub v1: VertexId,
         pub v2: VertexId,
+        pub w0: Bits<32>,
+        pub w1: Bits<32>,
+        pub w2: Bits<32>,
     }
 
     /// The part of an answer for one item.
@@ -87,6 +93,8 @@ crate::packed! {
         /// Number of words behind the head, and of parts.
         pub length: Bits<32>,
         pub parts: Bits<32>,
+        /// Number of the last beat of a part, counted from 0.
+        pub last_beat: BeatNumber,
     }
 }
 

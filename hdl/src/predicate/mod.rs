@@ -9,11 +9,13 @@
 //!            |                                                       -> WideProduct x2, sign -> incircle_...
 //!            -> VertexOrder ----------------------------------------------------------------> p_..., r0_...
 //! ```
+//! In a core that answers questions, `SideDelay` also gives the values of the three orient2d.
 
 mod cross_product;
 mod dot_product;
 mod edge_signs;
 mod point_difference;
+mod side_delay;
 mod signs;
 mod vertex_order;
 mod visit_predicates;
@@ -24,7 +26,8 @@ pub use cross_product::CrossProduct;
 pub use dot_product::DotProduct;
 pub use edge_signs::EdgeSigns;
 pub use point_difference::PointDifference;
-pub use signs::{Corners, EdgeFlags, OrderFlags, Signs};
+pub use side_delay::SideDelay;
+pub use signs::{Corners, EdgeFlags, OrderFlags, Sides, Signs, Weights, WEIGHTS_BITS};
 pub use vertex_order::VertexOrder;
 pub use visit_predicates::VisitPredicates;
 pub use wide_product::WideProduct;

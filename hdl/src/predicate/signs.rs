@@ -28,6 +28,20 @@ crate::packed! {
         pub e2_below_e1: bool,
     }
 
+    /// For each edge twice the area of the triangle that it makes with the point: the low bits of `E_k`, which are its
+    /// value if `E_k` is not negative. The high bits are 0 then, because `E_k` is below 2^32.
+    pub struct Weights {
+        pub w0: Bits<32>,
+        pub w1: Bits<32>,
+        pub w2: Bits<32>,
+    }
+
+    /// The position of the point relative to the three edges, with the weights of the opposite corners.
+    pub struct Sides {
+        pub flags: EdgeFlags,
+        pub weights: Weights,
+    }
+
     /// The lexicographic order of the point and the corners: by `x`, then by `y`.
     pub struct OrderFlags {
         /// The point comes before the corner.
@@ -54,3 +68,6 @@ crate::packed! {
         pub incircle_zero: bool,
     }
 }
+
+/// Number of bits of [`Weights`].
+pub const WEIGHTS_BITS: usize = Weights::BITS;

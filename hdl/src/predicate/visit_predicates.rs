@@ -18,7 +18,8 @@ use super::cross_product::CrossProduct;
 use super::dot_product::DotProduct;
 use super::edge_signs::EdgeSigns;
 use super::point_difference::PointDifference;
-use super::signs::{Corners, Signs};
+use super::side_delay::SideDelay;
+use super::signs::{Corners, Sides, Signs};
 use super::vertex_order::VertexOrder;
 use super::wide_product::WideProduct;
 use super::widths::Point;
@@ -30,6 +31,8 @@ pub struct VisitPredicates {
     pub corners: Signal<In, Corners>,
     pub p: Signal<In, Point>,
     pub signs: Signal<Out, Signs>,
+    /// Signs and values of the three orient2d: in a core that answers questions.
+    pub sides: Vec<Signal<Out, Sides>>,
     p_to_r0: PointDifference,
     p_to_r1: PointDifference,
     p_to_r2: PointDifference,
@@ -42,6 +45,7 @@ pub struct VisitPredicates {
     dot_apex: DotProduct,
     dot_point: DotProduct,
     edges: EdgeSigns,
+    side_delay: Vec<SideDelay>,
     order: VertexOrder,
     point_by_apex: WideProduct,
     apex_by_point: WideProduct,
@@ -58,6 +62,15 @@ impl VisitPredicates {
     /// Number of 18 x 18 bit multipliers: two each for four cross and two dot products, four each
     /// for two wide products.
     pub const MULTIPLIERS: usize = 2 * (4 + 2) + 4 * 2;
+
+    /// The predicates of a core that answers questions.
+    pub fn with_sides() -> Self {
+        Self {
+            sides: vec![Signal::default()],
+            side_delay: vec![SideDelay::new(Self::LATENCY - CrossProduct::LATENCY)],
+            ..Self::default()
+        }
+    }
 }
 
 impl Default for VisitPredicates {
@@ -67,6 +80,7 @@ impl Default for VisitPredicates {
             corners: Signal::default(),
             p: Signal::default(),
             signs: Signal::default(),
+            sides: Vec::new(),
             p_to_r0: PointDifference::default(),
             p_to_r1: PointDifference::default(),
             p_to_r2: PointDifference::default(),
@@ -79,6 +93,7 @@ impl Default for VisitPredicates {
             dot_apex: DotProduct::default(),
             dot_point: DotProduct::default(),
             edges: EdgeSigns::new(Self::LATENCY - CrossProduct::LATENCY),
+            side_delay: Vec::new(),
             order: VertexOrder::new(Self::LATENCY),
             point_by_apex: WideProduct::default(),
             apex_by_point: WideProduct::default(),
@@ -139,6 +154,14 @@ impl Logic for VisitPredicates {
         self.edges.e0.next = self.cross_0.product.val();
         self.edges.e1.next = self.cross_1.product.val();
         self.edges.e2.next = self.cross_2.product.val();
+        for i in 0..self.sides.len() {
+            self.side_delay[i].clock.next = self.clock.val();
+            self.side_delay[i].e0.next = self.cross_0.product.val();
+            self.side_delay[i].e1.next = self.cross_1.product.val();
+            self.side_delay[i].e2.next = self.cross_2.product.val();
+            self.side_delay[i].flags.next = self.edges.flags.val();
+            self.sides[i].next = self.side_delay[i].sides.val();
+        }
         self.point_by_apex.a.next = self.cross_0.product.val();
         self.point_by_apex.b.next = self.dot_apex.product.val();
         self.apex_by_point.a.next = self.cross_apex.product.val();

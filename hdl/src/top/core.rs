@@ -15,7 +15,7 @@ use crate::engine::{Bundle, Completion, Counters, InsertionEngine, Latencies, Po
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
 use crate::living::StandingView;
-use crate::predicate::EdgeFlags;
+use crate::predicate::Sides;
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -35,7 +35,7 @@ pub struct Core {
     pub question: Vec<Signal<In, Bundle>>,
     pub question_place: Vec<Signal<In, Position>>,
     pub completed: Vec<Signal<Out, Completion>>,
-    pub sides: Vec<Signal<Out, EdgeFlags>>,
+    pub sides: Vec<Signal<Out, Sides>>,
     pub standing: Vec<Signal<Out, Standing>>,
     command_port: CommandPort,
     answer_head: AnswerHead,

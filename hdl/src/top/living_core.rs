@@ -1,4 +1,4 @@
-//! The core with questions: as [`Core`], and it also answers runs of `Locate` about the mesh that stands.
+//! The core with questions: as [`Core`], and it also answers runs of `Locate` and `Interpolate`.
 //!
 //! ```text
 //! commands -> RunGate --> Core ------- completed visits --+

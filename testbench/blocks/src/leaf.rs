@@ -5,7 +5,7 @@ use incircle_hdl::leaf::{
     PacedMemory, SharedMemory,
 };
 use incircle_hdl::predicate::{
-    CrossProduct, DotProduct, EdgeSigns, PointDifference, VertexOrder, VisitPredicates, WideProduct,
+    CrossProduct, DotProduct, EdgeSigns, PointDifference, SideDelay, VertexOrder, VisitPredicates, WideProduct,
 };
 
 use crate::exported::block;
@@ -46,6 +46,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(DotProduct::default(), "dot_product"),
         block(WideProduct::default(), "wide_product"),
         block(EdgeSigns::new(2), "edge_signs"),
+        block(SideDelay::new(6), "side_delay"),
         block(VertexOrder::new(1), "vertex_order"),
         block(VisitPredicates::default(), "visit_predicates"),
     ]

@@ -188,3 +188,58 @@ pub const FAULTS: &[Fault] = &[
     Fault { name: "release_without_reset", pieces: &[piece("locks$reset = @;", "reset", "1'b0")] },
     Fault { name: "issue_without_reset", pieces: &[piece("issue$reset = @;", "reset", "1'b0")] },
 ];
+
+/// Faults of the blocks that answer questions. The place of a fault in this list is its bit of the port `faults`.
+pub const QUESTION_FAULTS: &[Fault] = &[
+    Fault {
+        name: "gate_passes_interpolate_on",
+        pieces: &[piece(
+            "begins = @;",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & (code == locate_code)",
+        )],
+    },
+    Fault {
+        name: "answer_of_a_run_goes_first",
+        pieces: &[piece("gives_run = @;", "run_response$valid & (~core_response$valid)", "run_response$valid")],
+    },
+    Fault { name: "missing_mesh_is_not_told", pieces: &[piece("if (@) begin", "~has_mesh", "1'b0")] },
+    Fault { name: "all_items_for_one_context", pieces: &[piece("if (@) begin", "after_turn == contexts", "1'b1")] },
+    Fault {
+        name: "item_waits_at_an_end",
+        pieces: &[piece(
+            "meets_end = @;",
+            "ends[(64'h0)+:(1)] & (ends[(64'h1)+:(5)] == dealt[(64'h1)+:(5)])",
+            "1'b0",
+        )],
+    },
+    Fault { name: "counts_are_not_cleared", pieces: &[piece("sweeps = @;", "~sweep$q[32'h5]", "1'b0")] },
+    Fault { name: "walk_begins_at_record_0", pieces: &[piece("if (@) begin", "of_launch[32'h0]", "1'b0")] },
+    Fault {
+        name: "hint_follows_the_search",
+        pieces: &[piece(
+            "arrives = @;",
+            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)] & (~is_search)",
+            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)]",
+        )],
+    },
+    Fault {
+        name: "search_ends_at_once",
+        pieces: &[piece("passes_by = @;", "is_search & (~verdict[(64'h1)+:(1)])", "is_search")],
+    },
+    Fault { name: "side_1_decides_alone", pieces: &[piece("if (@) begin", "on_0 | on_1", "on_1")] },
+    Fault {
+        name: "weights_are_swapped",
+        pieces: &[piece("low[(64'h20)+:(32)] = @;", "((e1) & 32'hffffffff)", "((e0) & 32'hffffffff)")],
+    },
+    Fault { name: "second_weight_is_lost", pieces: &[piece("if (@) begin", "beat == fourth", "1'b0")] },
+    Fault { name: "parts_have_two_beats", pieces: &[piece("leaves = @;", "loads_part & ends_part", "loads_part & beat$q[0]")] },
+    Fault {
+        name: "run_ends_before_its_last_beat",
+        pieces: &[piece(
+            "is_over = @;",
+            "(~head_is_due$q) & (~some_are_left$q) & (~valid$q)",
+            "(~head_is_due$q) & (~some_are_left$q)",
+        )],
+    },
+];

@@ -18,7 +18,7 @@
 
 use super::verdict_logic::VerdictLogic;
 use crate::engine::types::{Turned, Verdict};
-use crate::predicate::{Corners, EdgeFlags, Point, VisitPredicates};
+use crate::predicate::{Corners, Point, Sides, VisitPredicates};
 use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
@@ -31,8 +31,9 @@ pub struct VisitJudge {
     pub turned: Signal<In, Turned>,
     /// The findings of the visit, in clock 10.
     pub verdict: Signal<Out, Verdict>,
-    /// The signs of its orient2d, for the corners as stored, in clock 10: in a core that answers questions.
-    pub sides: Vec<Signal<Out, EdgeFlags>>,
+    /// Signs and values of its three orient2d, for the corners as stored, in clock 10: in a core that answers
+    /// questions.
+    pub sides: Vec<Signal<Out, Sides>>,
     predicates: VisitPredicates,
     verdict_logic: VerdictLogic,
 }
@@ -43,7 +44,7 @@ impl VisitJudge {
 
     /// The judge of a core that answers questions.
     pub fn with_sides() -> Self {
-        Self { sides: vec![Signal::default()], ..Self::default() }
+        Self { sides: vec![Signal::default()], predicates: VisitPredicates::with_sides(), ..Self::default() }
     }
 }
 
@@ -57,7 +58,7 @@ impl Logic for VisitJudge {
         self.verdict_logic.signs.next = self.predicates.signs.val();
         self.verdict.next = self.verdict_logic.verdict.val();
         for i in 0..self.sides.len() {
-            self.sides[i].next = self.predicates.signs.val().edges;
+            self.sides[i].next = self.predicates.sides[i].val();
         }
     }
 }

@@ -35,7 +35,7 @@ use crate::engine::types::{
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
-use crate::predicate::{EdgeFlags, Point, POINT_BITS};
+use crate::predicate::{Point, Sides, POINT_BITS};
 use crate::prelude::*;
 use incircle_protocol::{triangle_id_bits, vertex_id_bits, Config};
 
@@ -57,9 +57,9 @@ pub struct VisitPipeline {
     /// The visit that completes in this clock; and the one that completes in the next clock unless reset comes first.
     pub completion: Signal<Out, Completion>,
     pub early: Signal<Out, Upcoming>,
-    /// The signs of the orient2d of the visit that completes in this clock, for the corners as stored: in a core that
-    /// answers questions.
-    pub sides: Vec<Signal<Out, EdgeFlags>>,
+    /// Signs and values of the three orient2d of the visit that completes in this clock, for the corners as stored: in
+    /// a core that answers questions.
+    pub sides: Vec<Signal<Out, Sides>>,
     /// A record that the read-out wants, only while no visit is in flight; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
@@ -101,7 +101,7 @@ pub struct VisitPipeline {
     read_valid1: DFF<Bit>,
     read_valid2: DFF<Bit>,
     completes: DFF<Completion>,
-    kept_sides: Vec<DFF<EdgeFlags>>,
+    kept_sides: Vec<DFF<Sides>>,
     shifted: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<15>>,
 }

@@ -1,9 +1,9 @@
 //! Runs of questions about a mesh that stands, clock by clock: the words of a run, the queues of its items, the walks,
 //! and the parts of its answer.
 //!
-//! Hardware twin: the block `Questions`. During a run no insertion is at work, so all visits in the pipeline are those of
-//! questions, and no record changes. In this model a visit is therefore an entry of a delay line, and its record is read
-//! when the visit completes.
+//! Hardware twin: the block `Questions`. During a run no insertion is at work, so all visits in the pipeline are those
+//! of questions, and no record changes. In this model a visit is therefore an entry of a delay line, and its record is
+//! read when the visit completes.
 
 mod item_queues;
 mod part_queue;
@@ -13,6 +13,7 @@ mod step;
 
 use super::beat::Beat;
 use super::memory::Memory;
+use incircle_protocol::RunKind;
 use item_queues::ItemQueues;
 use part_queue::{Part, PartQueue};
 use run_port::RunPort;
@@ -41,13 +42,18 @@ impl Questions {
     pub(super) fn new(contexts: u32) -> Self {
         let contexts = contexts as usize;
         Self {
-            port: RunPort::default(),
+            port: RunPort::new(),
             queues: ItemQueues::new(contexts),
             parts: PartQueue::default(),
             visits: VecDeque::from(vec![None; LOOP]),
             items: vec![Item::default(); contexts],
             hints: vec![0; contexts],
         }
+    }
+
+    /// Whether the core answers runs of this kind.
+    pub(super) fn answers(kind: RunKind) -> bool {
+        matches!(kind, RunKind::Locate | RunKind::Interpolate)
     }
 
     /// Whether a run is under way.
@@ -76,8 +82,8 @@ impl Questions {
         let context = visit.map_or(0, |visit| visit.context);
         let ends = followed.is_some_and(|followed| matches!(followed, Followed::End(..)));
         let came = match followed {
-            Some(Followed::End(outcome, vertices)) => {
-                Some(Part { number: self.items[context].number, outcome, vertices })
+            Some(Followed::End(outcome, located)) => {
+                Some(Part { number: self.items[context].number, outcome, located })
             }
             _ => None,
         };

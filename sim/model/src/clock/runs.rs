@@ -26,7 +26,7 @@ impl ClockModel {
     }
 
     /// The same core with questions about a mesh that stands, and no other runs: a core of the hardware as far as it is
-    /// built. Of the questions it has `Locate`, and its identity does not offer runs.
+    /// built. Of the questions it has `Locate` and `Interpolate`, and its identity does not offer runs.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         self.questions = Some(Questions::new(self.config.contexts));
@@ -69,8 +69,8 @@ impl ClockModel {
         let command = &self.registers.command;
         let is_active = questions.is_active();
         let word = Some(inputs.command_data).filter(|_| inputs.command_valid);
-        let opcode = word.map(command_opcode).filter(|&opcode| opcode == Opcode::Locate as u8);
-        let begins = opcode.filter(|_| awaits_command && !is_active);
+        let kind = word.and_then(opcode_of).and_then(RunKind::of).filter(|&kind| Questions::answers(kind));
+        let begins = kind.filter(|_| awaits_command && !is_active);
         let signals = QuestionSignals {
             begins,
             word: word.filter(|_| is_active),

@@ -1,13 +1,13 @@
 //! Runs cores that answer questions beside their model, and compares every root port at every clock: random scripts of
-//! insertions and runs of `Locate`, crossed with idle clocks and back-pressure. All answers are compared with the model
-//! by commands, which knows no clock.
+//! insertions and runs of `Locate` and `Interpolate`, crossed with idle clocks and back-pressure. All answers are
+//! compared with the model by commands, which knows no clock.
 
 use incircle_model::CommandModel;
 use incircle_protocol::{
-    batch_word, command_word, Clear, Config, Meshes, Opcode, Outcome, CORE_COORD_BITS, COUNTER_WORDS, PADDING, SMALL,
-    TINY,
+    batch_word, command_word, Clear, Config, Located, Meshes, Opcode, Outcome, RunKind, CORE_COORD_BITS, COUNTER_WORDS,
+    PADDING, SMALL, TINY,
 };
-use incircle_testbench::lockstep::{Job, Lockstep, Stalls};
+use incircle_testbench::lockstep::{Fault, Job, Lockstep, Mismatch, Stalls, QUESTION_FAULTS};
 use incircle_testkit::SplitMix64;
 
 /// A command of a script.
@@ -16,7 +16,7 @@ enum Step {
     /// A batch with a job for each context.
     Batch,
     Insert(Vec<u32>),
-    Locate(Vec<u32>),
+    Ask(RunKind, Vec<u32>),
     Counters,
 }
 
@@ -27,40 +27,66 @@ impl Step {
             Self::Clear(clear) => vec![clear.word()],
             Self::Batch => vec![batch_word(0)],
             Self::Insert(points) => with_items(Opcode::Insert, points),
-            Self::Locate(places) => with_items(Opcode::Locate, places),
+            Self::Ask(kind, places) => with_items(kind.opcode(), places),
             Self::Counters => vec![command_word(Opcode::Counters)],
         }
     }
 }
 
-/// Outcome and vertices of each item, in the order of their numbers. Where a place lies in several records, or a record
-/// may begin at any of its vertices, the order of the vertices is not fixed. Of points at one place, that one is a
-/// vertex which a context inserted first; so each vertex stands here as the lowest id at its place.
-fn findings(parts: &[u32], arrived: &[u32]) -> Vec<(u32, [u32; 3])> {
+/// Outcome of an item, and its vertices with their weights.
+type Finding = (u32, [(u32, u64); 3]);
+
+/// What each item has found, in the order of their numbers. Where a place lies in several records, or a record
+/// may begin at any of its vertices, the order of the vertices is not fixed, and on an edge or a vertex only the ratio
+/// of the weights is. Of points at one place, that one is a vertex which a context inserted first; so each vertex
+/// stands here as the lowest id at its place.
+fn findings(kind: RunKind, parts: &[u32], arrived: &[u32]) -> Vec<Finding> {
     let lowest = |id: u32| {
         let same = |&place: &u32| arrived.iter().position(|&other| other == place);
         arrived.get(id as usize).and_then(same).map_or(id, |first| first as u32)
     };
-    let mut parts: Vec<&[u32]> = parts.chunks(4).collect();
+    let mut parts: Vec<&[u32]> = parts.chunks(kind.part_words()).collect();
     parts.sort_unstable_by_key(|part| part[0] & 0xff_ffff);
     let numbers: Vec<u32> = parts.iter().map(|part| part[0] & 0xff_ffff).collect();
     assert_eq!(numbers, (0..parts.len() as u32).collect::<Vec<_>>(), "each item has one part");
     parts
         .iter()
         .map(|part| {
-            let (outcome, mut vertices) = (part[0] >> 24, [part[1], part[2], part[3]].map(lowest));
+            let (outcome, located) = (part[0] >> 24, Located::from_words(&part[1..]));
+            let mut named = [0, 1, 2].map(|place| (lowest(located.vertices[place]), located.weights[place]));
             match outcome {
-                outcome if outcome == Outcome::Edge as u32 => vertices[..2].sort_unstable(),
-                outcome if outcome == Outcome::Triangle as u32 => vertices.sort_unstable(),
+                outcome if outcome == Outcome::Edge as u32 => named[..2].sort_unstable(),
+                outcome if outcome == Outcome::Triangle as u32 => named.sort_unstable(),
                 _ => {}
             }
-            (outcome, vertices)
+            if outcome != Outcome::Triangle as u32 {
+                let divisor = named.iter().fold(0, |divisor, &(_, weight)| common_divisor(divisor, weight)).max(1);
+                named = named.map(|(vertex, weight)| (vertex, weight / divisor));
+            }
+            (outcome, named)
         })
         .collect()
 }
 
+fn common_divisor(a: u64, b: u64) -> u64 {
+    if b == 0 {
+        a
+    } else {
+        common_divisor(b, a % b)
+    }
+}
+
+/// Runs of a script without parts, then parts by their outcome, for `Locate` and for `Interpolate`.
+type Seen = [[usize; 5]; 2];
+
 /// Runs the script, and compares the answers.
-fn run(pair: &mut Lockstep, config: Config, steps: &[Step], stalls: Stalls, random: &mut SplitMix64) -> [usize; 5] {
+fn run(
+    pair: &mut Lockstep,
+    config: Config,
+    steps: &[Step],
+    stalls: Stalls,
+    random: &mut SplitMix64,
+) -> Result<Seen, Box<Mismatch>> {
     let mut model = CommandModel::new(CORE_COORD_BITS, config.points, config.ring)
         .unwrap_or_else(|error| panic!("{error}"))
         .with_contexts(config.contexts)
@@ -76,17 +102,18 @@ fn run(pair: &mut Lockstep, config: Config, steps: &[Step], stalls: Stalls, rand
     assert!(count < expected.len());
     expected.truncate(count);
     let job = Job { commands, answers: expected.len() };
-    let answers = pair.run(&job, stalls, &mut || random.next_u64()).unwrap_or_else(|mismatch| panic!("{mismatch}"));
-    let (mut place, mut seen, mut arrived) = (0, [0; 5], Vec::new());
+    let answers = pair.run(&job, stalls, &mut || random.next_u64())?;
+    let (mut place, mut seen, mut arrived) = (0, Seen::default(), Vec::new());
     for step in steps {
         assert_eq!(answers[place..place + 2], expected[place..place + 2], "head of an answer");
         let payload = place + 2..place + 2 + answers[place + 1] as usize;
         place = payload.end;
         let (answer, expected) = (&answers[payload.clone()], &expected[payload]);
         match step {
-            Step::Locate(_) => {
-                let found = findings(answer, &arrived);
-                assert_eq!(found, findings(expected, &arrived));
+            Step::Ask(kind, _) => {
+                let found = findings(*kind, answer, &arrived);
+                assert_eq!(found, findings(*kind, expected, &arrived));
+                let seen = &mut seen[usize::from(*kind == RunKind::Interpolate)];
                 seen[0] += usize::from(found.is_empty());
                 found.iter().for_each(|(outcome, _)| seen[*outcome as usize] += 1);
             }
@@ -102,7 +129,7 @@ fn run(pair: &mut Lockstep, config: Config, steps: &[Step], stalls: Stalls, rand
         }
     }
     assert_eq!(place, answers.len());
-    seen
+    Ok(seen)
 }
 
 /// Up to this many words of points on a grid of this side.
@@ -127,7 +154,8 @@ fn script(random: &mut SplitMix64, config: Config, points: u64, places: u64) -> 
         if random.once_in(4) {
             steps.push(Step::Counters);
         }
-        steps.push(Step::Locate(words(random, places, side.min((1 << 16) - 2) + 2)));
+        let kind = if random.once_in(2) { RunKind::Locate } else { RunKind::Interpolate };
+        steps.push(Step::Ask(kind, words(random, places, side.min((1 << 16) - 2) + 2)));
     }
     steps
 }
@@ -135,16 +163,20 @@ fn script(random: &mut SplitMix64, config: Config, points: u64, places: u64) -> 
 fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, places: u64) {
     let mut random = SplitMix64::new(71);
     let mut pair = Lockstep::new(name, config, 71).with_questions();
-    let mut seen = [0; 5];
+    let mut seen = Seen::default();
     for number in 0..scripts {
         if number % 40 == 39 {
             pair = Lockstep::new(name, config, number as u32).with_questions();
         }
         let steps = script(&mut random, config, points, places);
         let found = run(&mut pair, config, &steps, Stalls::ALL[number % 9], &mut random);
-        seen.iter_mut().zip(found).for_each(|(sum, count)| *sum += count);
+        let found = found.unwrap_or_else(|mismatch| panic!("{mismatch}"));
+        seen.as_flattened_mut().iter_mut().zip(found.as_flattened()).for_each(|(sum, count)| *sum += count);
     }
-    assert!(seen.iter().all(|&count| count > scripts / 20), "runs without parts, then parts by outcome: {seen:?}");
+    assert!(
+        seen.as_flattened().iter().all(|&count| count > scripts / 30),
+        "for each kind, runs without parts, then parts by outcome: {seen:?}"
+    );
 }
 
 #[test]
@@ -155,4 +187,23 @@ fn scripts_on_a_tiny_core() {
 #[test]
 fn scripts_on_a_small_core() {
     random_scripts("core_small_questions", SMALL, 200, 120, 150);
+}
+
+/// Runs scripts on a core without one of the rules of questions, until a port differs from the model.
+#[test]
+fn cores_with_a_broken_block_of_questions_are_caught() {
+    const CORE: &str = "faulty_core_questions";
+    let first_mismatch = |faults: &[&str]| {
+        let mut random = SplitMix64::new(72);
+        let mut pair = Lockstep::faulty(CORE, TINY, 72, faults).with_questions();
+        (0..200).find_map(|number| {
+            let steps = script(&mut random, TINY, 6, 60);
+            run(&mut pair, TINY, &steps, Stalls::ALL[number % 9], &mut random).err().map(|mismatch| (number, mismatch))
+        })
+    };
+    assert!(first_mismatch(&[]).is_none(), "the sound core equals its model");
+    for Fault { name, .. } in QUESTION_FAULTS {
+        let (number, mismatch) = first_mismatch(&[name]).unwrap_or_else(|| panic!("{name} is not caught"));
+        println!("{name}: caught in script {number}, at port {}", mismatch.port);
+    }
 }

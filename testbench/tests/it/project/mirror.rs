@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 52] = [
+const ELSEWHERE: [(&str, &str, &str); 54] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -51,6 +51,8 @@ const ELSEWHERE: [(&str, &str, &str); 52] = [
         "blocks/living/run_port",
         "the items of a run, at the ports of the block that takes its words",
     ),
+    ("living/named_vertices", "blocks/living/question_step", "the finding in a triangle, at the ports of the step"),
+    ("living/part_beat", "blocks/living/part_queue", "the words of each part, two at a time"),
     ("living/queue_counts", "blocks/living/item_queues", "the counts of the queues, which alone use them"),
     ("living/run_answer", "blocks/living/run_port", "the head of every answer, also of a run that is refused"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),

@@ -18,7 +18,7 @@ use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::living::types::{ContextEnd, DealtItem, Finding, Launch, PartCame, RunHead, Standing};
 use incircle_hdl::mesh::{ReadRecord, Record};
-use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Signs};
+use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Sides, Signs, Weights};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FifoRoom, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
@@ -191,10 +191,12 @@ packed_values!(
     Released,
     RingHead,
     SeedProgress,
+    Sides,
     Signs,
     Station,
     OnTheWay,
     DatagramAsks,
+    Weights,
     DatagramHead,
     DatagramVerdict,
     UdpSession,

@@ -32,6 +32,30 @@ impl Mesh {
         record.v.map(|v| self.points.get(v as usize).copied().unwrap_or((5, 7)))
     }
 
+    /// Checks the weights of the vertices that an answer names: with them the place is the mean of these vertices, and
+    /// their sum is twice the area of a triangle that has them all as corners.
+    pub fn check_weights(&self, place: Point, outcome: u64, vertices: [u64; 3], weights: [u64; 3]) {
+        let count = if outcome == 4 { 0 } else { outcome as usize };
+        assert_eq!(weights[count..], [0; 3][count..], "{place:?}: only vertices that an answer names have a weight");
+        if count == 0 {
+            return;
+        }
+        let named = || vertices.into_iter().zip(weights).take(count);
+        let at = |vertex: u64| self.points[vertex as usize];
+        let sum: i64 = named().map(|(_, weight)| weight as i64).sum();
+        let weighed: i64 = named().map(|(vertex, weight)| at(vertex).0 * weight as i64).sum();
+        let weighed_y: i64 = named().map(|(vertex, weight)| at(vertex).1 * weight as i64).sum();
+        let is_mean = (weighed, weighed_y) == (place.0 * sum, place.1 * sum);
+        let has_area = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|corner| at(corner.into()));
+            named().all(|(vertex, _)| corners.contains(&(vertex as u32))) && orientation(a, b, c) == sum
+        };
+        assert!(
+            is_mean && self.triangles.iter().any(has_area) && named().all(|(_, weight)| weight > 0),
+            "{place:?}: vertices {vertices:?}, weights {weights:?}"
+        );
+    }
+
     /// Checks an answer by the definition of its outcome.
     pub fn check(&self, place: Point, outcome: u64, [v0, v1, v2]: [u64; 3]) {
         let at = |vertex: u64| self.points[vertex as usize];

@@ -3,7 +3,7 @@
 //! Hardware twin: the block `PartQueue`.
 
 use crate::clock::beat::Beat;
-use incircle_protocol::{part_head, Outcome};
+use incircle_protocol::{part_head, Located, Outcome};
 use std::collections::VecDeque;
 
 /// Number of items that may have begun without their parts having left.
@@ -14,7 +14,18 @@ const PLACES: usize = 32;
 pub(super) struct Part {
     pub number: u32,
     pub outcome: Outcome,
-    pub vertices: [u32; 3],
+    pub located: Located,
+}
+
+impl Part {
+    /// The two words of a beat of the part, which is numbered from 0.
+    fn beat(&self, number: usize) -> [u32; 2] {
+        let words = self.located.to_words();
+        match number {
+            0 => [part_head(self.number, self.outcome), words[0]],
+            _ => [words[2 * number - 1], words[2 * number]],
+        }
+    }
 }
 
 /// The head of an answer.
@@ -23,6 +34,8 @@ pub(super) struct Head {
     pub header: u32,
     pub length: u32,
     pub parts: u32,
+    /// Number of beats of a part.
+    pub beats: usize,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -32,10 +45,11 @@ pub(super) struct PartQueue {
     parts: VecDeque<Part>,
     places: usize,
     head: Option<Head>,
-    /// Number of parts that are still to leave.
+    /// Number of parts that are still to leave, and of beats of a part.
     left: u32,
-    /// Whether the next beat is the second of its part.
-    at_second: bool,
+    beats: usize,
+    /// Number of the next beat in its part.
+    beat: usize,
     valid: bool,
     offered: Beat,
 }
@@ -66,7 +80,7 @@ impl PartQueue {
             self.load();
         }
         if let Some(head) = head {
-            self.left = head.parts;
+            (self.left, self.beats) = (head.parts, head.beats);
             self.head = Some(head);
         }
     }
@@ -78,18 +92,19 @@ impl PartQueue {
             self.offered = Beat { low: header, high: length, both: true, last: self.left == 0 };
             return;
         }
-        let Some(&Part { number, outcome, vertices: [v0, v1, v2] }) = self.parts.front() else {
+        let Some(part) = self.parts.front() else {
             return;
         };
+        let [low, high] = part.beat(self.beat);
         self.valid = true;
-        if self.at_second {
-            self.offered = Beat { low: v1, high: v2, both: true, last: self.left == 1 };
+        self.beat += 1;
+        let ends_part = self.beat == self.beats;
+        self.offered = Beat { low, high, both: true, last: ends_part && self.left == 1 };
+        if ends_part {
             self.parts.pop_front();
+            self.beat = 0;
             self.places -= 1;
             self.left -= 1;
-        } else {
-            self.offered = Beat { low: part_head(number, outcome), high: v0, both: true, last: false };
         }
-        self.at_second = !self.at_second;
     }
 }

@@ -8,9 +8,8 @@ use crate::predicate::Point;
 use incircle_protocol::{part_item, RunKind, Status};
 
 /// The meaning of the next word, or the event that is awaited.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
-    #[default]
     Idle,
     Count,
     Judge,
@@ -19,10 +18,11 @@ enum State {
     Settle,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct RunPort {
     state: State,
-    opcode: u8,
+    /// The kind of the run under way, or of the last one.
+    kind: RunKind,
     count: u32,
     left: u32,
     /// The status of a run that is refused.
@@ -35,6 +35,20 @@ pub(super) struct RunPort {
 }
 
 impl RunPort {
+    pub(super) fn new() -> Self {
+        Self {
+            state: State::Idle,
+            kind: RunKind::Locate,
+            count: 0,
+            left: 0,
+            refusal: None,
+            answers: false,
+            held: None,
+            context: 0,
+            number: 0,
+        }
+    }
+
     pub(super) fn is_active(&self) -> bool {
         self.state != State::Idle
     }
@@ -57,9 +71,9 @@ impl RunPort {
     pub(super) fn head(&self, signature: u32) -> Option<Head> {
         let status = self.refusal.map_or(0, |status| status as u32);
         let parts = if self.refusal.is_none() { self.count } else { 0 };
-        let length = parts * RunKind::Locate.part_words() as u32;
-        let header = u32::from(self.opcode) << 24 | status << 16 | signature;
-        self.answers.then_some(Head { header, length, parts })
+        let words = self.kind.part_words();
+        let header = (self.kind.opcode() as u32) << 24 | status << 16 | signature;
+        self.answers.then_some(Head { header, length: parts * words as u32, parts, beats: words / 2 })
     }
 
     /// Simulates one edge; `is_over` says that the answer has been taken.
@@ -72,8 +86,8 @@ impl RunPort {
         self.answers = false;
         match was.state {
             State::Idle => {
-                if let Some(opcode) = signals.begins {
-                    *self = Self { state: State::Count, opcode, ..*self };
+                if let Some(kind) = signals.begins {
+                    *self = Self { state: State::Count, kind, ..*self };
                     (self.context, self.number) = (0, 0);
                 }
             }
@@ -107,7 +121,7 @@ impl RunPort {
 
     /// Decides whether the run is done.
     fn judge(&mut self, has_mesh: bool) {
-        let is_too_long = self.count.checked_mul(RunKind::Locate.part_words() as u32).is_none();
+        let is_too_long = self.count.checked_mul(self.kind.part_words() as u32).is_none();
         self.refusal = match has_mesh {
             false => Some(Status::NoMesh),
             true => is_too_long.then_some(Status::BadRange),

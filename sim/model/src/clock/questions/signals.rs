@@ -1,6 +1,7 @@
 //! The items of a run, and the signals that the rest of the core gives to the blocks of questions.
 
 use crate::predicate::Point;
+use incircle_protocol::RunKind;
 
 /// An item of a run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -12,8 +13,8 @@ pub(super) struct Item {
 /// The signals of the rest of the core at an edge.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Signals {
-    /// A run begins with this opcode.
-    pub begins: Option<u8>,
+    /// A run of this kind begins.
+    pub begins: Option<RunKind>,
     /// The word on offer, if it belongs to the run under way.
     pub word: Option<u32>,
     /// Whether the offered beat is taken.

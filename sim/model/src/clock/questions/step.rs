@@ -5,7 +5,7 @@
 use crate::clock::memory::Memory;
 use crate::mesh::Record;
 use crate::predicate::{orient2d, Point};
-use incircle_protocol::Outcome;
+use incircle_protocol::{Located, Outcome};
 
 /// A visit of a question.
 #[derive(Clone, Copy, Debug)]
@@ -22,13 +22,13 @@ impl Visit {
     }
 }
 
-/// The result of a visit: the next visit, or the end of the item with its outcome and vertices.
+/// The result of a visit: the next visit, or the end of the item with what it has found.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Followed {
     Visit(Visit),
     /// A visit of the search along the hull, after the walk has arrived.
     Search(Visit),
-    End(Outcome, [u32; 3]),
+    End(Outcome, Located),
 }
 
 impl Followed {
@@ -63,7 +63,9 @@ pub(super) fn follow(visit: &Visit, record: Record, p: Point, memory: &Memory) -
             (None, true) => Followed::Search(before),
             (Some(_), true) => Followed::Visit(before),
             (None, false) => walk(record.n[slot]),
-            (Some(hull_end), false) => Followed::End(Outcome::Outside, [end, hull_end, 0]),
+            (Some(hull_end), false) => {
+                Followed::End(Outcome::Outside, Located { vertices: [end, hull_end, 0], weights: [0; 3] })
+            }
         };
     }
     let lowest = sides.into_iter().min().unwrap_or(0);
@@ -71,12 +73,13 @@ pub(super) fn follow(visit: &Visit, record: Record, p: Point, memory: &Memory) -
         let slot = sides.iter().position(|&side| side == lowest).unwrap_or(0);
         return walk(record.n[slot]);
     }
-    let mut vertices = [0; 3];
+    let mut located = Located::default();
     let mut count = 0;
-    for (slot, _) in sides.into_iter().enumerate().filter(|&(_, side)| side != 0) {
-        vertices[count] = record.v[slot];
+    for (slot, side) in sides.into_iter().enumerate().filter(|&(_, side)| side != 0) {
+        located.vertices[count] = record.v[slot];
+        located.weights[count] = side.unsigned_abs();
         count += 1;
     }
     let outcome = [Outcome::Vertex, Outcome::Edge, Outcome::Triangle][count.max(1) - 1];
-    Followed::End(outcome, vertices)
+    Followed::End(outcome, located)
 }

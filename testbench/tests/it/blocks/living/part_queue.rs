@@ -16,19 +16,20 @@ named_ports!(
 /// Number of parts that may be on their way.
 const PLACES: usize = 32;
 
-/// Number, outcome and vertices of a part.
-type Part = (u64, u64, [u64; 3]);
+/// Number, outcome, vertices and weights of a part.
+type Part = (u64, u64, [u64; 3], [u64; 3]);
 
-fn words([(number, outcome, [v0, v1, v2])]: [Part; 1]) -> [u64; 2] {
-    [outcome << 24 | number | v0 << 32, v1 | v2 << 32]
+/// All beats that a part can have, the first words in the low halves.
+fn beats((number, outcome, [v0, v1, v2], [w0, w1, w2]): Part) -> [u64; 5] {
+    [outcome << 24 | number | v0 << 32, v1 | v2 << 32, w0, w1, w2]
 }
 
 /// The inputs of a clock.
 #[derive(Clone, Copy, Default)]
 struct Inputs {
     reset: bool,
-    /// Header and number of parts.
-    head: Option<(u64, u64)>,
+    /// Header, number of parts, and number of beats of a part.
+    head: Option<(u64, u64, u64)>,
     begins: bool,
     came: Option<Part>,
     ready: bool,
@@ -37,18 +38,22 @@ struct Inputs {
 fn set(block: &mut Stepper<PartQueue>, inputs: Inputs) {
     block.set("reset", inputs.reset);
     block.set("head_valid", inputs.head.is_some());
-    let (header, parts) = inputs.head.unwrap_or((3, 4));
+    let (header, parts, beats) = inputs.head.unwrap_or((3, 4, 7));
     block.set("head_header", header);
-    block.set("head_length", 4 * parts);
+    block.set("head_length", 2 * beats * parts);
     block.set("head_parts", parts);
+    block.set("head_last_beat", beats - 1);
     block.set("begins", inputs.begins);
     block.set("came_valid", inputs.came.is_some());
-    let (number, outcome, [v0, v1, v2]) = inputs.came.unwrap_or((1, 2, [3, 4, 5]));
+    let (number, outcome, [v0, v1, v2], [w0, w1, w2]) = inputs.came.unwrap_or((1, 2, [3, 4, 5], [6, 7, 8]));
     block.set("came_part_number", number);
     block.set("came_part_finding_outcome", outcome);
     block.set("came_part_finding_v0", v0);
     block.set("came_part_finding_v1", v1);
     block.set("came_part_finding_v2", v2);
+    block.set("came_part_finding_w0", w0);
+    block.set("came_part_finding_w1", w1);
+    block.set("came_part_finding_w2", w2);
     block.set("response_ready", inputs.ready);
     block.settle();
 }
@@ -63,17 +68,24 @@ fn part_queue_gives_all_parts_in_their_order() {
     for run in 0..400 {
         let count = [0, 1, 2, 40, 90][run % 5];
         let patience = [1, 2, 9][run % 3];
-        let mut beats = VecDeque::from([(random.bits(32), count * 4)].map(|(header, length)| header | length << 32));
-        let header = beats[0] & 0xffff_ffff;
+        let beats_of_part = [2, 5, 1, 2, 5, 5, 2][run % 7];
+        let header = random.bits(32);
+        let mut due = VecDeque::from([header | count * beats_of_part * 2 << 32]);
         // Items that are still to begin, that have begun, and places that are taken.
         let (mut left, mut begun, mut places, mut sent) = (count, 0u64, 0usize, 0);
-        set(&mut block, Inputs { head: Some((header, count)), ..Inputs::default() });
+        set(&mut block, Inputs { head: Some((header, count, beats_of_part)), ..Inputs::default() });
         block.expect("is_over", true);
         block.edge();
         let mut clocks = 0;
-        while sent < 1 + 2 * count {
-            let came = (begun > 0 && random.once_in(2))
-                .then(|| (random.bits(24), random.bits(4), [(); 3].map(|()| random.bits(15))));
+        while sent < 1 + beats_of_part * count {
+            let came = (begun > 0 && random.once_in(2)).then(|| {
+                (
+                    random.bits(24),
+                    random.bits(4),
+                    [15, 15, 15].map(|n| random.bits(n)),
+                    [32, 32, 32].map(|n| random.bits(n)),
+                )
+            });
             let begins = left > 0 && places < PLACES && random.once_in(2);
             let ready = random.once_in(patience);
             set(&mut block, Inputs { begins, came, ready, ..Inputs::default() });
@@ -84,15 +96,15 @@ fn part_queue_gives_all_parts_in_their_order() {
             }
             let is_given = block.is("response_valid");
             if is_given {
-                block.expect("response_data", *beats.front().expect("a beat that is due"));
+                block.expect("response_data", *due.front().expect("a beat that is due"));
                 block.expect("response_both", true);
-                block.expect("response_last", sent == 2 * count);
+                block.expect("response_last", sent == beats_of_part * count);
             }
             block.edge();
             clocks += 1;
             assert!(clocks < 10_000, "the answer ends");
             if let Some(part) = came {
-                beats.extend(words([part]));
+                due.extend(&beats(part)[..beats_of_part as usize]);
                 begun -= 1;
             }
             if begins {
@@ -101,9 +113,9 @@ fn part_queue_gives_all_parts_in_their_order() {
                 places += 1;
             }
             if is_given && ready {
-                beats.pop_front();
+                due.pop_front();
                 sent += 1;
-                places -= usize::from(sent > 1 && sent % 2 == 1);
+                places -= usize::from(sent > 1 && (sent - 1) % beats_of_part == 0);
             }
             fullest = fullest.max(places);
         }
@@ -136,9 +148,9 @@ fn part_queue_shows_the_wave_of_its_header() {
     for clock in 0..11 {
         let inputs = Inputs {
             reset: false,
-            head: (clock == 0).then_some((85, 1)),
+            head: (clock == 0).then_some((85, 1, 2)),
             begins: clock == 1,
-            came: (clock == 3).then_some((6, 0, [1, 7, 2])),
+            came: (clock == 3).then_some((6, 0, [1, 7, 2], [9; 3])),
             ready: clock >= 5,
         };
         set(&mut block, inputs);

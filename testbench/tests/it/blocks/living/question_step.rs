@@ -16,8 +16,8 @@ const INFINITE: u64 = 0x7fff;
 enum Follows {
     /// A visit of this record; in the search along the hull with the end of a hull edge.
     Visit(u64, Option<u64>),
-    /// An outcome with three vertices.
-    End(u64, [u64; 3]),
+    /// An outcome with three vertices and their weights.
+    End(u64, [u64; 3], [u64; 3]),
 }
 
 /// What follows the visit of a record that holds the place or not, by the signs of its sides.
@@ -28,17 +28,19 @@ fn follows(visit: Visit, record: Record, located: bool, walk_next: u64, sides: [
         let end = record.v[(slot + 1) % 3];
         return match (located, is_search) {
             (true, _) => (Follows::Visit(record.n[(slot + 1) % 3], Some(end)), arrives),
-            (false, true) => (Follows::End(4, [end, visit.cavity_record, 0]), false),
+            (false, true) => (Follows::End(4, [end, visit.cavity_record, 0], [0; 3]), false),
             (false, false) => (Follows::Visit(walk_next, None), false),
         };
     }
     if !located {
         return (Follows::Visit(walk_next, None), false);
     }
-    let mut named: Vec<u64> = (0..3).filter(|&slot| sides[slot] != 0).map(|slot| record.v[slot]).collect();
+    let mut named: Vec<usize> = (0..3).filter(|&slot| sides[slot] != 0).collect();
     let outcome = named.len() as u64;
-    named.resize(3, 0);
-    (Follows::End(outcome, [named[0], named[1], named[2]]), arrives)
+    named.resize(3, 3);
+    let vertices = [0, 1, 2].map(|place| record.v.get(named[place]).copied().unwrap_or(0));
+    let weights = [0, 1, 2].map(|place| sides.get(named[place]).copied().unwrap_or(0) as u64);
+    (Follows::End(outcome, vertices, weights), arrives)
 }
 
 /// Three corners of a triangle that turns left, and a place, in a box so small that lines and equal points are common.
@@ -80,8 +82,12 @@ fn question_step_follows_the_rules() {
         block.set("completion_visit", visit.packed());
         block.set("completion_turned", record.pack_turned(0, [false; 3], INFINITE));
         block.set("completion_verdict", verdict);
-        for (port, side) in ["e0_zero", "e1_zero", "e2_zero"].into_iter().zip(sides) {
+        for (port, side) in ["sides_flags_e0_zero", "sides_flags_e1_zero", "sides_flags_e2_zero"].into_iter().zip(sides)
+        {
             block.set(port, side == 0);
+        }
+        for (port, side) in ["sides_weights_w0", "sides_weights_w1", "sides_weights_w2"].into_iter().zip(sides) {
+            block.set(port, side as u64 & 0xffff_ffff);
         }
         block.settle();
         let (follows, arrives) = follows(visit, record, located, walk_next, sides);
@@ -97,13 +103,16 @@ fn question_step_follows_the_rules() {
                 block.expect_masked("bundle", 3, 0u128);
                 seen[0] += 1;
             }
-            Follows::End(outcome, [v0, v1, v2]) => {
+            Follows::End(outcome, [v0, v1, v2], [w0, w1, w2]) => {
                 block.expect("asks", false);
                 block.expect("ends", done);
                 block.expect("finding_outcome", outcome);
                 block.expect("finding_v0", v0);
                 block.expect("finding_v1", v1);
                 block.expect("finding_v2", v2);
+                block.expect("finding_w0", w0);
+                block.expect("finding_w1", w1);
+                block.expect("finding_w2", w2);
                 seen[outcome as usize] += 1;
             }
         }

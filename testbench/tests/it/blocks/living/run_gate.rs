@@ -68,7 +68,7 @@ fn run_gate_gives_each_word_to_one_side() {
             beat
         });
         block.settle();
-        let begins = valid && awaits && !is_active && opcode == 8;
+        let begins = valid && awaits && !is_active && [8, 9].contains(&opcode);
         begun += usize::from(begins);
         block.expect("begins", begins);
         block.expect("opcode", opcode);

@@ -11,6 +11,8 @@ named_ports!(
     clock
 );
 
+const LOCATE: u64 = 8;
+const INTERPOLATE: u64 = 9;
 const BAD_RANGE: u64 = 2;
 const NO_MESH: u64 = 7;
 
@@ -34,10 +36,19 @@ struct Run {
 }
 
 impl Run {
+    /// Number of words of the part of an item.
+    fn part_words(&self) -> u64 {
+        if self.opcode == INTERPOLATE {
+            10
+        } else {
+            4
+        }
+    }
+
     fn status(&self) -> u64 {
         match self.has_mesh {
             false => NO_MESH,
-            true if self.count >= 1 << 30 => BAD_RANGE,
+            true if self.count * self.part_words() >= 1 << 32 => BAD_RANGE,
             true => 0,
         }
     }
@@ -80,7 +91,8 @@ impl Run {
                 assert!(status == 0 || words == 1 + self.count, "a refused run is answered behind its words");
                 let parts = if status == 0 { self.count } else { 0 };
                 block.expect("head_header", self.opcode << 24 | status << 16 | signature);
-                block.expect("head_length", 4 * parts);
+                block.expect("head_length", self.part_words() * parts);
+                block.expect("head_last_beat", self.part_words() / 2 - 1);
                 block.expect("head_parts", parts);
                 heads += 1;
             }
@@ -119,7 +131,7 @@ fn run_port_deals_the_items_in_turn() {
     reset(&mut block);
     for number in 0..300 {
         let run = Run {
-            opcode: 8 + random.below(3),
+            opcode: LOCATE + random.below(2),
             count: [0, 1, 5, 60][number % 4],
             has_mesh: !random.once_in(4),
             contexts: 1 + random.below(24),
@@ -131,15 +143,22 @@ fn run_port_deals_the_items_in_turn() {
 #[test]
 fn run_port_refuses_a_run_whose_answer_is_too_long() {
     let mut random = SplitMix64::new(66);
-    for (count, is_refused) in [(1 << 30, true), ((1 << 30) - 1, false), (0xffff_ffff, true)] {
+    for (opcode, count, is_refused) in [
+        (LOCATE, 1 << 30, true),
+        (LOCATE, (1 << 30) - 1, false),
+        (LOCATE, 0xffff_ffff, true),
+        (INTERPOLATE, 429_496_730, true),
+        (INTERPOLATE, 429_496_729, false),
+        (INTERPOLATE, 1 << 31, true),
+    ] {
         let mut block = Stepper::new("living_run_port", RunPort::default(), 1);
         reset(&mut block);
-        let run = Run { opcode: 8, count, has_mesh: true, contexts: 3 };
+        let run = Run { opcode, count, has_mesh: true, contexts: 3 };
         assert_eq!(run.status() != 0, is_refused);
         // Its words are passed over, so no item is dealt.
         run.play(&mut block, &mut random, 50);
         reset(&mut block);
-        Run { opcode: 8, count: 3, has_mesh: true, contexts: 3 }.play(&mut block, &mut random, u64::MAX);
+        Run { opcode, count: 3, has_mesh: true, contexts: 3 }.play(&mut block, &mut random, u64::MAX);
     }
 }
 
