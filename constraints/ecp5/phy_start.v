@@ -10,8 +10,7 @@
 // 1. `phy_reset_n` stays low for 2^WAIT_BITS clocks after `reset`. The boards wait 2^21 clocks, 11.6 ms at 180 MHz and
 //    longer at slower clocks, because PHYs ask for 10 ms.
 // 2. `device_reset` falls once the PHY has its own reset behind it and at least 8 periods of `phy_clock` have passed
-//    since: both clocks of the device must run during its reset. While the PHY gives no clock, the device stays in
-//    reset and its lamps are dark.
+//    since, so that the lamps stay dark while the PHY gives no clock. The device itself would wait for that clock, too.
 `default_nettype none
 module phy_start #(
     parameter WAIT_BITS = 21

@@ -30,8 +30,8 @@ pub enum ShortIds {
 }
 
 impl ShortIds {
-    /// Number of records whose payload ends with a whole word. Ranges of so many records, or of a multiple, may be asked
-    /// for one by one, and their payloads put together.
+    /// Number of records whose payload ends with a whole word. Ranges of so many records, or of a multiple, may be
+    /// asked for one by one, and their payloads put together.
     pub const WHOLE: u32 = GROUP as u32;
     /// Most points of a mesh whose ids can be short.
     pub const MOST_IDS: u32 = 0xfff;

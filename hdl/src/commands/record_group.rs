@@ -1,9 +1,9 @@
-//! Counts down the records of a payload, and collects the rests of short ids of 12 bits, which follow the words of up to
-//! eight records as a word of their own.
+//! Counts down the records of a payload, and collects the rests of short ids of 12 bits, which follow the words of up
+//! to eight records as a word of their own.
 //!
 //! 1. A record ends a group if it is the eighth of it or the last of the payload.
-//! 2. `rests` has the rest of the record that comes in bits 31 to 28, those of the records before it in its group below,
-//!    and zeros below the first.
+//! 2. `rests` has the rest of the record that comes in bits 31 to 28, those of the records before it in its group
+//!    below, and zeros below the first.
 //!
 //! Latency: none from `rest` to `rests`; 1 clock from a record to the outputs for the next one.
 

@@ -42,7 +42,7 @@ pub struct ItemQueues {
     /// The line holds an item, and the first item in the line.
     pub waits: Signal<Out, Bit>,
     pub launch: Signal<Out, Launch>,
-    /// The first item in the line begins at this edge; only while the line holds an item.
+    /// The first item in the line begins at this edge. The user sets it only while `waits` is 1.
     pub launches: Signal<In, Bit>,
     items: BlockMemory<QUEUE_ADDRESS_BITS, ITEM_BITS>,
     counts: QueueCounts,

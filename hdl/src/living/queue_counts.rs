@@ -33,7 +33,7 @@ pub struct QueueCounts {
     pub end_context: Signal<In, ContextId>,
     pub has_more: Signal<Out, Bit>,
     pub fetched_place: Signal<Out, Bits<DEPTH_BITS>>,
-    /// That item is fetched out of the queue at this edge.
+    /// The next item of `end_context` is fetched out of its queue at this edge.
     pub fetches: Signal<In, Bit>,
     put_for_offer: LutMemory<CONTEXT_BITS, QUEUE_COUNT_BITS>,
     put_for_end: LutMemory<CONTEXT_BITS, QUEUE_COUNT_BITS>,

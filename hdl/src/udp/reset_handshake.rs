@@ -1,11 +1,12 @@
 //! Resets both sides of a device with two clocks: the core's side leaves its reset after the port's side has been in
 //! reset for 8 of its own clocks, however long the clock of the port stands.
 //!
-//! 1. A `reset` of 4 clocks of the core begins a reset, also at power-up and while another reset is under way.
-//! 2. `core_resets` is 1 until the reset has ended on the port's side. A FIFO between the clocks is therefore empty on
-//!    both sides when the core's side begins to use it.
-//! 3. While `reset` is 1, both sides stay in reset.
-//! 4. The registers have no reset of their own: from any contents they come to rest, or do a whole reset.
+//! 1. A `reset` of 4 clocks of the core begins a reset, also while another reset is under way.
+//! 2. `core_resets` is 1 until the reset has ended on the port's side. Both pointers of a FIFO between the clocks are
+//!    therefore cleared before either side uses it.
+//! 3. A reset that has begun does not end on either side while `reset` is 1.
+//! 4. The registers have no reset of their own. They begin at 0, as those of an FPGA do. From other contents they come
+//!    to rest as well, but the first reset may then be shorter on the port's side.
 //!
 //! Latency: 4 clocks of the core from `reset` to `core_resets`. With both clocks running, a short reset takes 14 to 16
 //! clocks of the port and 9 to 12 of the core.

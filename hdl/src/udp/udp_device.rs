@@ -5,8 +5,8 @@
 //! FIFO takes the answers of a job, and the core goes on with the next job while the cable carries them. P is the
 //! number of bits of a pointer of the FIFO, which holds `2^(P-1)` entries of one or two words.
 //!
-//! 1. `reset` is needed once, after power-up, for 4 clocks of the core. It may change at any time. A reset ends when both
-//!    sides have been in reset, however long the clock of the port stands; see [`ResetHandshake`].
+//! 1. `reset` is needed once, after power-up, for 4 clocks of the core. It may change at any time. A reset ends when
+//!    both sides have been in reset, however long the clock of the port stands; see [`ResetHandshake`].
 //! 2. The addresses of the device are constants.
 //! 3. A reset of the core empties the FIFO. It lasts for the length of a datagram at least, as the FIFO asks.
 //!

@@ -36,7 +36,17 @@ impl Grid {
         let [columns, rows] = [multiples(0)?, multiples(1)?];
         let counts = [columns, rows].map(|[first, last]| u64::try_from(last - first + 1).unwrap_or(0));
         let [across, up] = counts.map(|count| count as f64);
-        let needed = across * up * bytes as f64 + (across + up) * LINE_BYTES + doubles.len() as f64 * POINT_BYTES;
+        let of_points = doubles.len() as f64 * POINT_BYTES;
+        let needed = across * up * bytes as f64 + (across + up) * LINE_BYTES + of_points;
+        if of_points > memory.bytes() as f64 {
+            return Err(Failure::input(format!(
+                "{} points take {:.0} MiB on the way to a grid, more than the {} MiB of free memory: give fewer points, or \
+                 use a machine with more memory",
+                doubles.len(),
+                of_points / f64::from(1 << 20),
+                memory.bytes() >> 20
+            )));
+        }
         if needed > memory.bytes() as f64 {
             return Err(step.refuse(&format!(
                 "gives {across} by {up} nodes, which take {:.0} MiB with the points, more than the {} MiB of free \

@@ -76,8 +76,8 @@ pub struct Written {
 }
 
 impl Output {
-    /// Checks an output before the work: the output must be none of the inputs, of which only one may be standard input;
-    /// its folder must exist and take new files, and an existing file must be writable.
+    /// Checks an output before the work: the output must be none of the inputs, of which only one may be standard
+    /// input; its folder must exist and take new files, and an existing file must be writable.
     pub fn prepare(path: &Path, inputs: &[PathBuf]) -> Result<Self, Failure> {
         check_standard(inputs)?;
         if is_standard(path) {
@@ -161,7 +161,9 @@ impl Written {
         let mut unfinished = interrupt::unfinished();
         interrupt::check()?;
         keep_permissions(part, path);
-        let older = part_named(path, &format!("{}.older", std::process::id()));
+        let older = older_of_process(path, std::process::id());
+        // A killed process with the same id, as in a container, may have left a file of this name.
+        let _ = fs::remove_file(&older);
         // Without second names for files, as on some file systems, an older file is not kept.
         let has_older = fs::hard_link(path, &older).is_ok();
         if let Err(error) = fs::rename(part, path) {
@@ -338,11 +340,18 @@ fn part_named(path: &Path, run: &str) -> PathBuf {
     folder_of(path).join(name)
 }
 
-/// Removes what a process left under the working name of an output because it was killed.
+/// The name under which a process keeps the file that its output replaces.
+fn older_of_process(path: &Path, process: u32) -> PathBuf {
+    part_named(path, &format!("{process}.older"))
+}
+
+/// Removes what a process left beside an output because it was killed: the unfinished output, and the second name of
+/// the file that the output replaced.
 pub fn remove_part(path: &Path, process: u32) {
     // The name stands beside the file itself, behind links.
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let _ = fs::remove_file(part_of_process(&path, process));
+    let _ = fs::remove_file(older_of_process(&path, process));
 }
 
 /// Gives the new file the permissions of the file that it replaces, as far as the system allows.

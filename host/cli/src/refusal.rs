@@ -10,9 +10,6 @@ use crate::number::Coordinate;
 use crate::plan::{PlannedSet, Request};
 use crate::points::PointTable;
 
-/// The remedy for a domain that has no triangles or no boundary.
-const ALL: &str = "close the rings around it, or take all triangles of the hull by --domain all";
-
 /// The error of the plan that the validator found; `Err` if it found one of the triangles.
 pub fn of_plan(error: VerifyError) -> Result<Error, VerifyError> {
     Ok(match error {
@@ -40,7 +37,13 @@ impl Request {
                 }
                 self.crossing(&Error::Crossing { constraints, ends, place })
             }
-            Error::Open { .. } | Error::Unbalanced { .. } | Error::Empty { .. } => format!("{error}: {ALL}"),
+            Error::Open { .. } => {
+                format!("{error}: add the missing constraint, or take all triangles of the hull by --domain all")
+            }
+            Error::Unbalanced { .. } => {
+                format!("{error}: let the constraints of each ring run one way, or give --domain even-odd")
+            }
+            Error::Empty { .. } => format!("{error}: close the rings around the domain, or give --domain all"),
             Error::Outside { kind, number } => format!("{} lies outside the hull of the points", mark(kind, number)),
             Error::OnConstraint { kind, number, edge: [a, b] } => {
                 format!("{} lies on the constraint from point {a} to point {b}", mark(kind, number))
@@ -87,8 +90,8 @@ impl Request {
         format!("{kind} {}, counted from 1, at ({x}, {y}),", number + 1)
     }
 
-    /// Refuses a polygon with a hole outside its outer ring, which would be land by the rule even-odd. The constraints
-    /// are known not to cross.
+    /// Refuses a polygon with a hole outside its outer ring, which the rule even-odd would make part of the
+    /// domain. The constraints are known not to cross.
     pub fn check_holes(&self, (set, file): (&PlannedSet, &str), laid: &Laid<'_>) -> Result<(), Failure> {
         if !matches!(self.domain, Domain::EvenOdd | Domain::NonZero) {
             return Ok(());
@@ -106,8 +109,8 @@ impl Request {
             let first = holes[hole].first().map_or(0, |side| side[0]) as usize;
             let [x, y] = [0, 1].map(|axis| set.table.coordinate(first, axis));
             return Err(Failure::input(format!(
-                "ring {} of polygon {polygon}, both counted from 1, is a hole that lies outside ring 1 of the polygon, at \
-                 least in part: it begins at ({x}, {y})",
+                "ring {} of polygon {polygon}, both counted from 1, is a hole that begins at ({x}, {y}) and lies outside \
+                 ring 1 of the polygon, at least in part: move it inside, or make it a polygon of its own",
                 hole + 2
             ))
             .in_file(file));

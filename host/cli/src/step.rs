@@ -29,7 +29,8 @@ impl Step {
             Some(Number::Double(nearest) | Number::Beyond(nearest)) if nearest.value.is_finite() => {
                 Err(refuse(match nearest.value {
                     ..0.0 => "is negative: give a positive step",
-                    _ => "has too many digits: give a step that has up to 18 with all its zeros",
+                    0.0 => "is too small to be told from zero: give a larger step",
+                    _ => "needs more than 64 bits: give a step of up to 18 digits, leading zeros not counted",
                 }))
             }
             Some(_) => Err(refuse("is not finite: give a positive step")),
@@ -87,11 +88,12 @@ mod tests {
             ("1e999", "is not finite"),
             (
                 "1e19",
-                "--grid '1e19' has too many digits: give a step that has up to 18 with all its zeros, such as 0.5",
+                "--grid '1e19' needs more than 64 bits: give a step of up to 18 digits, leading zeros not counted, such \
+                 as 0.5",
             ),
-            ("12345678901234567890", "has too many digits"),
-            ("0.12345678901234567891", "has too many digits"),
-            ("1e-400", "has too many digits"),
+            ("12345678901234567890", "needs more than 64 bits"),
+            ("0.12345678901234567891", "needs more than 64 bits"),
+            ("1e-400", "is too small to be told from zero"),
         ] {
             assert!(message(text).contains(why), "{text}: {}", message(text));
         }

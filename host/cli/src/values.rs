@@ -203,7 +203,7 @@ pub fn bytes_from(text: &str) -> Result<u64, String> {
 /// Parses a number of threads.
 pub fn threads_from(text: &str) -> Result<NonZeroU32, String> {
     text.parse().map_err(|_| {
-        "give a whole number from 1 on, or leave the option out for one thread on each processor".to_owned()
+        format!("give a whole number from 1 to {}, or leave the option out for one thread on each processor", u32::MAX)
     })
 }
 

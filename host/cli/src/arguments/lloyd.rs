@@ -27,7 +27,7 @@ pub struct LloydArguments {
     /// Without this option the extension of the file chooses the format.
     #[arg(long, value_enum)]
     pub format: Option<SetFormat>,
-    /// Steps to do: in each, every point moves to the centroid of its cell
+    /// The most steps: in each, every point moves to the centroid of its cell
     #[arg(long, value_name = "N", value_parser = whole_number(1, 1_000_000))]
     pub iterations: Option<u32>,
     /// Do steps until no point moves, or points go round, at most 100,000

@@ -29,8 +29,8 @@ use crate::{interrupt, path, plan, snapping, source};
 pub fn run(arguments: &TriangulateArguments) -> Result<(), Failure> {
     match triangulate_large::memory_of(arguments) {
         Some(_) if arguments.asks_for_plan() => Err(Failure::usage(
-            "constraints, domains, --edges and --neighbors need the whole set in memory: leave out --memory, --scratch, \
-             --resume and --unordered",
+            "constraints, domains, --edges and --neighbors need the whole set in memory: leave out --memory, \
+             --scratch, --resume and --unordered",
         )),
         Some(memory) => triangulate_large::run(arguments, memory),
         None => run_in_memory(arguments),

@@ -103,7 +103,7 @@ pub fn check_ring(table: &PointTable, first: usize, what: impl Fn() -> String) -
         return Ok(());
     }
     Err(Failure::input(format!(
-        "{} has a ring that is not closed: it begins at ({}, {}) and ends at ({}, {})",
+        "{} has a ring that is not closed: it begins at ({}, {}) and ends at ({}, {}); repeat the first point at its end",
         what(),
         from[0],
         from[1],

@@ -2,8 +2,8 @@
 //!
 //! The points are those of a `.node` file: `N 2 attributes markers`, then `id x y …`. If `N` is 0, they stand in the
 //! `.node` file beside. Then follow `N markers` with segments `id a b …`, `N` with holes `id x y`, and perhaps `N` with
-//! regions `id x y attribute …`. Ids count from 0 or 1. The attribute of a region is a number, which the mesh gets as it
-//! is written. Attributes and markers of points and segments are not read.
+//! regions `id x y attribute …`. Ids count from 0 or 1. The attribute of a region is a number, which the mesh gets as
+//! it is written. Attributes and markers of points and segments are not read.
 //!
 //! Source: <https://www.cs.cmu.edu/~quake/triangle.poly.html>.
 

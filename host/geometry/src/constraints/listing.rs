@@ -43,7 +43,7 @@ impl Crowds {
     }
 }
 
-/// The pieces of constraints, each with one constraint of those with the same ends.
+/// The pieces of constraints, each with the number of one constraint; its repeats are added at the end.
 struct Listing {
     parts: Vec<([u32; 2], u32)>,
     repeats: Repeats,
@@ -56,7 +56,7 @@ impl Listing {
         Self { parts: Vec::with_capacity(constraints), repeats, entries: 0 }
     }
 
-    /// Makes room for `count` pieces of a constraint.
+    /// Counts pieces of a constraint and of its repeats, and refuses more than `MOST_PARTS`.
     fn count(&mut self, count: usize, constraint: u32) -> Result<(), Error> {
         let more = count.saturating_mul(1 + self.repeats.of(constraint).len());
         self.entries = self.entries.saturating_add(more);

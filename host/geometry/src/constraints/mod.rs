@@ -16,10 +16,10 @@
 //!
 //! **How it works, file by file.** `triangulate` lets the CPU triangulator force constraints in before it sorts its
 //! triangles. The others work on the lists of a mesh. `build` has the steps. `network` links the triangles of a mesh
-//! and marks fixed edges; `fixed_mesh` flips free ones; `force` brings a constraint in, and `listing`
-//! all of them; `pieces` collects what constraints became, and `repeats` finds those that are equal; `crossing` works
-//! out where two of them cross. `sweep` finds all crossings with the order of lines in `status`, and `snap` and `pixels`
-//! round them to a finer grid. `domain` floods the parts between constraints, and `locate` finds holes and regions.
+//! and marks fixed edges; `fixed_mesh` flips free ones; `force` brings a constraint in, and `listing` all of them;
+//! `pieces` collects what constraints became, and `repeats` finds those that are equal; `crossing` works out where two
+//! of them cross. `sweep` finds all crossings with the order of lines in `status`, and `snap` and `pixels` round them
+//! to a finer grid. `domain` floods the parts between constraints, and `locate` finds holes and regions.
 
 mod build;
 mod constrain;

@@ -105,8 +105,9 @@ impl Snapped {
 /// edges. If the constraints come in another order, the result is the same, except for the order of the constraints and
 /// of their parts.
 ///
-/// O(c log c) to find the crossings, for `c` constraints, crossings and points. If there are some, the cells of a grid of
-/// about `c` cells that the constraints touch are looked at, too.
+/// O((c + k) log c) to find the crossings, for `c` constraints and points and `k` pairs of constraints that cross; `k`
+/// also counts pairs of constraints that cross at a point of the set. If others cross, a grid has about a cell for each
+/// point, old or new, and those of its cells that the constraints touch are looked at, too.
 ///
 /// ```
 /// use incircle_geometry::constraints::snap;

@@ -69,21 +69,21 @@ impl Status {
         self.block_of.swap(lower as usize, upper as usize);
     }
 
-    /// The rank of the block, and the place in it, of the first line that is not below something.
+    /// The rank of the block, and the place in it, of the first line for which `is_below` is false.
     fn search(&self, is_below: impl Fn(u32) -> bool) -> (usize, usize) {
         let is_whole = |&block: &u32| self.blocks[block as usize].last().is_some_and(|&line| is_below(line));
         let rank = self.order.partition_point(is_whole).min(self.order.len() - 1);
         (rank, self.blocks[self.order[rank] as usize].partition_point(|&line| is_below(line)))
     }
 
-    /// The lines from the first one on that is not below something.
+    /// The lines from the first line for which `is_below` is false.
     pub fn not_below(&self, is_below: impl Fn(u32) -> bool) -> impl Iterator<Item = u32> + '_ {
         let (rank, place) = self.search(is_below);
         let lines = self.order[rank..].iter().flat_map(|&block| self.blocks[block as usize].iter().copied());
         lines.skip(place)
     }
 
-    /// Puts a line above all lines that are below it.
+    /// Inserts a line directly above the lines for which `is_below` is true; these must be the lowest ones.
     pub fn insert(&mut self, line: u32, is_below: impl Fn(u32) -> bool) {
         let (rank, place) = self.search(is_below);
         let block = self.order[rank];

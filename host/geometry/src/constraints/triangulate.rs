@@ -58,7 +58,8 @@ impl Restored for TriangulateError {
 ///
 /// `threads` and `watch` are those of `cpu::triangulate`; one thread forces the constraints. O(n) on even sets, then
 /// for each constraint the edges that it crosses, and the flips around them. Where the answer is an error, the
-/// constraints are taken out of the mesh, and the steps of `constrain` find out what is wrong; `watch` can end this, too.
+/// constraints are taken out of the mesh, and the steps of `constrain` find out what is wrong; `watch` can end this,
+/// too.
 ///
 /// ```
 /// use core::num::NonZeroUsize;

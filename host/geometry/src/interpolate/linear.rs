@@ -4,7 +4,7 @@ use super::large::mean_of_large;
 use crate::lattice::scaled;
 
 /// The value on the line between two places with values, at a place between them. A [`Surface`](super::Surface) gives
-/// the end of the lower index first. The value between finite values is finite.
+/// the end of the lower index first. If coordinates are below 1e75, the value between finite values is finite.
 ///
 /// ```
 /// use incircle_geometry::interpolate::edge_value;
@@ -28,8 +28,8 @@ fn on_line([(a, from), (b, to)]: [([f64; 2], f64); 2], q: [f64; 2]) -> f64 {
 }
 
 /// The value of the plane through the corners of a triangle, counter-clockwise, at a place that it contains. A
-/// [`Surface`](super::Surface) begins with the corner that the triangle of the mesh has first. The value between finite
-/// values is finite.
+/// [`Surface`](super::Surface) begins with the corner that the triangle of the mesh has first. If coordinates are below
+/// 1e75, the value between finite values is finite.
 ///
 /// ```
 /// use incircle_geometry::interpolate::plane_value;

@@ -14,9 +14,9 @@
 //! **What is exact.** Places are found, and natural neighbours are chosen, by predicates that are never rounded, so a
 //! place is in the triangle that contains it, and walks end. The values themselves are worked out in doubles by a fixed
 //! sequence of operations, which depends on the place alone: neither on the number of threads, nor on the order of the
-//! places. On an edge the value is that of the line between its two ends, whichever triangle found it. A value between
-//! finite values is finite: if a sum leaves the range of doubles, the work is done again with values that are divided
-//! by a power of two.
+//! places. On an edge the value is that of the line between its two ends, whichever triangle found it. If
+//! coordinates are below 1e75, a value between finite values is finite: if a sum leaves the range of doubles, the work
+//! is done again with values that are divided by a power of two.
 //!
 //! ```
 //! use incircle_geometry::interpolate::{Method, Outside, Surface};

@@ -113,8 +113,8 @@ pub fn relax_weighted(
 /// the work because somebody asks for that.
 ///
 /// `step` gets the points in an order in which near ones stand near one another, and must give the new place of each,
-/// in the same order. The new places may depend on the old ones alone. The result has the points in the order of
-/// `points` again.
+/// in the same order. The new places must depend on the old ones alone, because the work ends after a step in which no
+/// point moves. The result has the points in the order of `points` again.
 ///
 /// ```
 /// use core::num::NonZeroUsize;

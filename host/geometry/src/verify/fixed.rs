@@ -255,8 +255,8 @@ impl<P: ExactPoint> Sweep<'_, P> {
     }
 }
 
-/// Checks that the constraints of the boundary begin as often as they end at each point, or, if it only matters how many
-/// there are, that their number at each point is even. Pieces then do the same, as each goes from point to point.
+/// Checks that the constraints of the boundary begin as often as they end at each point, or, if it only matters how
+/// many there are, that their number at each point is even. Pieces then do the same, as each goes from point to point.
 pub(super) fn check_closed<P: ExactPoint>(
     sites: &Sites<'_, P>,
     boundary: &[[u32; 2]],

@@ -26,7 +26,7 @@ use crate::plane_point::PlanePoint;
 /// ```
 ///
 /// # Errors
-/// An index or a coordinate is wrong, the rings are not closed, or it was noticed that lines or rings cross.
+/// An index or a coordinate is wrong, the rings are not closed, or lines or rings cross; not every crossing is noticed.
 pub fn lie_inside<P: PlanePoint>(points: &[P], rings: &[[u32; 2]], lines: &[[u32; 2]]) -> Result<bool, VerifyError> {
     check_sizes(points.len(), &[])?;
     match &P::numbers(points) {

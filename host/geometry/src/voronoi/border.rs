@@ -1,4 +1,4 @@
-//! The corners and edges of a clip in a tree of boxes, so that few are asked about a cell.
+//! The corners and edges of a clip in a tree of boxes, so that the work for a cell looks at few of them.
 //!
 //! A node has edges with consecutive numbers: those of some whole rings, or consecutive ones of a single ring. Its box
 //! holds all their ends. So one comparison tells that all corners of a node lie on one side of a line, or that none of
@@ -34,7 +34,7 @@ struct Node {
     has_rings: bool,
 }
 
-/// The line at which two points are at one distance, seen from the first.
+/// The perpendicular bisector of two points; its sides are told from the first point.
 #[derive(Clone, Copy)]
 pub(super) struct Bisector {
     p: Point,

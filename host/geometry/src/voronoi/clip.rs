@@ -34,8 +34,8 @@ impl Clip {
     }
 
     /// The polygon with these corners, clockwise or counter-clockwise. The first may be repeated at the end, and
-    /// corners may repeat the one before. O(m log m) for `m` corners, and O(m) more for each pair of edges that lie
-    /// near each other beyond those of most rings: O(m²) at worst.
+    /// corners may repeat the one before. O(m log m) for `m` corners, and more the more the boxes around edges and
+    /// around consecutive edges overlap: O(m²) at worst, as for a comb of long slanted teeth.
     ///
     /// # Errors
     /// The ring has no area, edges that are not consecutive have a common place, or a coordinate has more than 31 bits.
@@ -49,7 +49,7 @@ impl Clip {
     /// use incircle_geometry::voronoi::Clip;
     /// use incircle_geometry::Point;
     ///
-    /// let square = |low: u32, high: u32| [(low, low), (high, low), (high, high), (low, high)].map(Point::from).to_vec();
+    /// let square = |a: u32, b: u32| [(a, a), (b, a), (b, b), (a, b)].map(Point::from).to_vec();
     /// let clip = Clip::with_holes(&square(0, 9), &[square(1, 3), square(5, 8)])?;
     /// assert_eq!(clip.twice_area(), 2 * (81 - 4 - 9));
     /// # Ok::<(), incircle_geometry::voronoi::Error>(())

@@ -14,7 +14,7 @@ pub(crate) struct Clipper<'a> {
     points: &'a [Point],
     clip: &'a Clip,
     cutter: Cutter,
-    /// What is left of the clip, and memory for what a cut leaves of that.
+    /// The rings after the cuts so far, and a second list into which the next cut writes.
     rings: RingList,
     spare: RingList,
     /// The rings of the cell, one behind the other, and how many corners each has.

@@ -9,7 +9,10 @@
 //! | the diagram of a mesh | [`Voronoi::of`] | O(n), about 1 µs a point |
 //! | a cell, its neighbours and its corners | [`Voronoi::cell`], [`Voronoi::cells`] | O(1), no allocation |
 //! | a corner exactly, or rounded once | [`Voronoi::vertex`], [`Corner::nearest`] | 20 to 60 ns |
-//! | a cell inside a clip, with its area | [`Cells::cell`] | O(k), or O(k log m) where the border of the clip passes |
+//! | a cell inside a clip, with its area | [`Cells::cell`] | O(k + log m), more near the border of the clip |
+//!
+//! Here `k` is the number of edges of the cell, and `m` that of corners of the clip. Near the border a cell takes
+//! O(k log m), and O(log m) more for each time that the line of an edge crosses the border.
 //!
 //! **Why the diagram is canonical.** A Voronoi vertex is the centre of an empty circle through three or more points.
 //! Two triangles have the same centre only if they have the same empty circle, for the radius is the distance from the

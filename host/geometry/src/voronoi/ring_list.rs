@@ -1,5 +1,5 @@
 //! The rings of a cell while it is cut. Corners of the clip that follow one another are one item, so that a clip of
-//! many corners is cut without a look at each.
+//! many corners is cut without looking at every corner.
 
 use alloc::vec::Vec;
 use core::cmp::Ordering;

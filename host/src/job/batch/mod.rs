@@ -80,8 +80,8 @@ impl<'b> Batch<'b> {
         Ok((done, left))
     }
 
-    /// Most points of jobs that share the memory: those whose mesh the device keeps for the line while its core goes on.
-    /// Where the line may be slower than the core, they are also no more than short ids can number.
+    /// Most points of jobs that share the memory: those whose mesh the device keeps for the line while its core goes
+    /// on. Where the line may be slower than the core, they are also no more than short ids can number.
     fn most_shared(&self) -> usize {
         let carrier = &self.carrier;
         let capabilities = carrier.channel.capabilities();

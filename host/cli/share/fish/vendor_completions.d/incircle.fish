@@ -379,7 +379,7 @@ complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l format -d 'F
 xyz\t'Rows `x y`'
 node\t'Shewchuk\'s Triangle, .node'
 npy\t'An array of NumPy with n rows and two columns, .npy'"
-complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l iterations -d 'Steps to do: in each, every point moves to the centroid of its cell' -r
+complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l iterations -d 'The most steps: in each, every point moves to the centroid of its cell' -r
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l clip -d 'Clip the cells to this rectangle: two opposite corners \'X0,Y0,X1,Y1\' (default: around the points)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l clip-to -d 'Clip the cells to the polygon in this file' -r -F
 complete -c incircle -n "__fish_incircle_using_subcommand lloyd" -l density -d 'Let points gather where this image is dark: a PNG, JPEG or PGM file' -r -F

@@ -137,7 +137,7 @@ fn wrong_input_is_one_sentence_and_no_file() {
         ("p.csv --grid 0 -o v.csv", 3, &["--grid '0' is zero: give a positive step, such as 0.5"]),
         ("p.csv --grid -1 -o v.csv", 3, &["--grid '-1' is negative: give a positive step"]),
         ("p.csv --grid wide -o v.csv", 3, &["--grid 'wide' is not a number: give a positive step"]),
-        ("p.csv --grid 1e19 -o v.csv", 3, &["--grid '1e19' has too many digits: give a step"]),
+        ("p.csv --grid 1e19 -o v.csv", 3, &["--grid '1e19' needs more than 64 bits: give a step"]),
         ("p.csv --grid inf -o v.csv", 3, &["--grid 'inf' is not finite"]),
         (
             "p.csv --grid 0.0000000001 -o v.csv",

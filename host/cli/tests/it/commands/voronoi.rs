@@ -173,7 +173,7 @@ fn wrong_input_is_one_sentence_and_no_file() {
         (
             "p.csv -o c.geojson --clip-to open.geojson",
             3,
-            &["open.geojson: the polygon has a ring that is not closed: it begins at (1, 1) and ends at (1, 2)"],
+            &["open.geojson: the polygon has a ring that is not closed: it begins at (1, 1) and ends at (1, 2); repeat"],
         ),
         ("p.csv -o c.geojson --clip-to short.geojson", 3, &["short.geojson: the polygon has a ring of 3 points"]),
         ("p.csv -o c.geojson --clip-to empty.geojson", 3, &["empty.geojson: the polygon has no ring"]),

@@ -38,15 +38,16 @@ fn verify_refuses_plans_without_a_mesh_with_the_words_of_triangulate() {
         let checked = scratch.run(&format!("verify {name} all.ele {options}")).fails(3, parts);
         assert_eq!(made.stderr, checked.stderr);
     };
-    let all = "or take all triangles of the hull by --domain all";
+    let (one, way) = ("add the missing constraint, or take all triangles of the hull by --domain all", "run one way");
+    let all = "close the rings around the domain, or give --domain all";
     let square = "0,0\n4,0\n4,4\n0,4\n";
     both(
         "p.csv",
         square,
         "--constraints e.csv --domain even-odd",
-        &["e.csv: ", "not closed", "point 0 is odd (1)", all],
+        &["e.csv: ", "not closed", "point 0 is odd (1)", one],
     );
-    both("p.csv", square, "--constraints e.csv --domain non-zero", &["e.csv: ", "1 of its constraints begin", all]);
+    both("p.csv", square, "--constraints e.csv --domain non-zero", &["e.csv: ", "1 of its constraints begin", way]);
     both("p.csv", square, "--constraints one.csv --domain holes", &["is empty: none of the 2 triangles", all]);
     let open = "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n1 0\n1 1 2\n0\n";
     both("p.poly", open, "", &["p.poly: the domain is empty: none of the 2 triangles", all]);
@@ -74,10 +75,10 @@ fn holes_outside_their_ring_are_refused() {
         |low: u32, high: u32| format!("[[{low},{low}],[{high},{low}],[{high},{high}],[{low},{high}],[{low},{low}]]");
     let polygon = |rings: &[String]| format!(r#"{{"type":"Polygon","coordinates":[{}]}}"#, rings.join(","));
     let told = |ring: u32, polygon: u32| {
-        format!("ring {ring} of polygon {polygon}, both counted from 1, is a hole that lies outside ring 1")
+        format!("ring {ring} of polygon {polygon}, both counted from 1, is a hole that begins at (")
     };
     let outside = [square(0, 9), square(2, 4), square(10, 12), square(5, 6)];
-    refused("p.geojson", &polygon(&outside), "", &[&told(3, 1), "it begins at (10, 10)"]);
+    refused("p.geojson", &polygon(&outside), "", &[&told(3, 1), "begins at (10, 10) and lies outside ring 1"]);
     refused("p.geojson", &polygon(&outside), "--domain non-zero --backend model", &[&told(3, 1)]);
     refused("p.geojson", &polygon(&outside), "--crossings snap", &[&told(3, 1)]);
     let (outer, inner) = (square(0, 9), "[[9,9],[12,9],[12,12],[9,12],[9,9]]".to_owned());

@@ -61,7 +61,7 @@ impl<K: Kernel> Fixed<'_, K> {
             self.halves[pair as usize].end &= !FIXED;
             self.halves[pair as usize ^ 1].end &= !FIXED;
         }
-        // The flips around one edge after the other are done at once, so that the caller is asked between them.
+        // Edges are repaired 64 at a time, so that the caller can end the work between them.
         for some in fixed.chunks(EDGES_PER_LOOK) {
             go_on()?;
             self.stack.extend_from_slice(some);

@@ -173,8 +173,8 @@ impl<K: Kernel> Fixed<'_, K> {
         new
     }
 
-    /// Fills the room between a chain and the fixed edge between its ends. The new edges take the first of these numbers,
-    /// and the others are returned.
+    /// Fills the room between a chain and the fixed edge between its ends. The new edges take the first of these
+    /// numbers, and the others are returned.
     fn fill_chain<'n>(&mut self, chain: &[u32], mut numbers: &'n [u32]) -> &'n [u32] {
         let mut open = core::mem::take(&mut self.open);
         open.clear();

@@ -69,8 +69,8 @@ impl<'a, K: Kernel> Fixed<'a, K> {
         }
     }
 
-    /// Reads the half-edges of some vertices one after the other, so that they are in the cache afterwards. The processor
-    /// sees such a sequence coming, but none of the scattered reads of a constraint.
+    /// Reads the half-edges of some vertices one after the other, so that they are in the cache afterwards. The
+    /// processor sees such a sequence coming, but none of the scattered reads of a constraint.
     pub(super) fn fetch(&self, vertices: Range<usize>) {
         let all = self.halves.len();
         let own = &self.halves[(HALVES * vertices.start).min(all)..(HALVES * vertices.end).min(all)];
