@@ -39,7 +39,8 @@ pub struct RunAnswer {
 const _: () = {
     let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words()];
     assert!(words[0] == 4 && words[1] == 10, "the numbers of this block follow the protocol");
-    assert!(u32::MAX / 4 == 1_073_741_823 && u32::MAX / 10 == 429_496_729, "the most items that can be counted");
+    let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32];
+    assert!(most[0] == 1_073_741_823 && most[1] == 429_496_729, "the most items that can be counted");
     assert!(Opcode::Locate as u8 & 1 == 0 && Opcode::Interpolate as u8 & 1 == 1, "the low bit of the opcode decides");
 };
 

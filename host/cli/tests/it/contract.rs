@@ -102,7 +102,10 @@ fn the_processor_is_the_default() {
     scratch.run("triangulate p.csv -o m.ele --backend cpu --config tiny").fails(2, &["--config", "--backend clock"]);
     let none = scratch.run("triangulate p.csv -o m.ele --threads 0");
     assert_eq!(none.code, Some(2));
-    assert!(none.stderr.contains("from 1 on, or leave the option out for one thread on each processor"), "{none:?}");
+    assert!(
+        none.stderr.contains("from 1 to 4294967295, or leave the option out for one thread on each processor"),
+        "{none:?}"
+    );
 }
 
 #[test]
