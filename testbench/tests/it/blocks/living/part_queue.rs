@@ -70,7 +70,7 @@ fn part_queue_gives_all_parts_in_their_order() {
         let patience = [1, 2, 9][run % 3];
         let beats_of_part = [2, 5, 1, 2, 5, 5, 2][run % 7];
         let header = random.bits(32);
-        let mut due = VecDeque::from([header | count * beats_of_part * 2 << 32]);
+        let mut due = VecDeque::from([header | (count * beats_of_part * 2) << 32]);
         // Items that are still to begin, that have begun, and places that are taken.
         let (mut left, mut begun, mut places, mut sent) = (count, 0u64, 0usize, 0);
         set(&mut block, Inputs { head: Some((header, count, beats_of_part)), ..Inputs::default() });
