@@ -33,7 +33,7 @@ pub struct ResetHandshake {
     is_wanted: DFF<Bit>,
     is_requested: DFF<Bit>,
     core_is_resetting: DFF<Bit>,
-    /// Clocks of the port that the request has lasted.
+    /// Clocks of the port that the request has lasted, without those of whole rounds of eight.
     clocks: DFF<Bits<3>>,
     is_replied: DFF<Bit>,
     most: Signal<Local, Bits<3>>,
@@ -79,7 +79,6 @@ impl Logic for ResetHandshake {
 
         self.clocks.d.next = self.clocks.q.val() + self.one.val();
         if self.clocks.q.val() == self.most.val() {
-            self.clocks.d.next = self.most.val();
             self.is_replied.d.next = true;
         }
         if !self.request_seen.received.val() {

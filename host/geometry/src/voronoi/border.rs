@@ -8,15 +8,15 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::Range;
 
-use super::clip::Clip;
 use super::corner::{dot, vector};
+use super::rings::Rings;
 use crate::point::Point;
 use crate::predicate::orient2d;
 
 /// The most edges of a node without children.
 const LEAF: u32 = 4;
 
-/// The edges of all rings of a clip. Nodes stand in the order in which a search visits them, each before its children.
+/// The edges of all rings of a rings. Nodes stand in the order in which a search visits them, each before its children.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Border {
     nodes: Vec<Node>,
@@ -68,29 +68,29 @@ impl Bisector {
 }
 
 impl Border {
-    /// The border of a clip.
-    pub(super) fn of(clip: &Clip) -> Self {
+    /// The border of a rings.
+    pub(super) fn of(rings: &Rings) -> Self {
         let mut border = Self::default();
-        let count = clip.corners().len() as u32;
+        let count = rings.corners.len() as u32;
         if count > 0 {
-            border.add(clip, [0, count]);
+            border.add(rings, [0, count]);
         }
         border
     }
 
     /// Adds the node of some edges, and its children. Returns its box.
-    fn add(&mut self, clip: &Clip, edges: [u32; 2]) -> [[u32; 2]; 2] {
+    fn add(&mut self, rings: &Rings, edges: [u32; 2]) -> [[u32; 2]; 2] {
         let (number, [first, end]) = (self.nodes.len(), edges);
-        let between = clip.ring_between(edges);
+        let between = rings.ring_between(edges);
         self.nodes.push(Node { edges, low: [0; 2], high: [0; 2], skip: 0, has_rings: between.is_some() });
         let [low, high] = match between {
             None if end - first <= LEAF => {
-                (first..end).map(|edge| box_of(clip.edge(edge as usize))).fold([[u32::MAX; 2], [0; 2]], united)
+                (first..end).map(|edge| box_of(rings.edge(edge as usize))).fold([[u32::MAX; 2], [0; 2]], united)
             }
             middle => {
                 let middle = middle.unwrap_or(first + (end - first) / 2);
-                let one = self.add(clip, [first, middle]);
-                united(one, self.add(clip, [middle, end]))
+                let one = self.add(rings, [first, middle]);
+                united(one, self.add(rings, [middle, end]))
             }
         };
         let skip = self.nodes.len() as u32;
@@ -115,15 +115,15 @@ impl Border {
     }
 
     /// Whether the box of an edge and a box of doubles have a place in common. The box may be infinite.
-    pub(super) fn may_touch(&self, clip: &Clip, low: [f64; 2], high: [f64; 2]) -> bool {
+    pub(super) fn may_touch(&self, rings: &Rings, low: [f64; 2], high: [f64; 2]) -> bool {
         let overlaps = |[from, to]: [[u32; 2]; 2]| {
             (0..2).all(|axis| low[axis] <= f64::from(to[axis]) && high[axis] >= f64::from(from[axis]))
         };
-        self.visit(|node| overlaps([node.low, node.high]), |edge| overlaps(box_of(clip.edge(edge as usize))))
+        self.visit(|node| overlaps([node.low, node.high]), |edge| overlaps(box_of(rings.edge(edge as usize))))
     }
 
     /// Whether an odd number of rings contains a point that is on none of them, without the ring of these edges.
-    pub(super) fn is_inside(&self, clip: &Clip, point: Point, without: Range<u32>) -> bool {
+    pub(super) fn is_inside(&self, rings: &Rings, point: Point, without: Range<u32>) -> bool {
         let is_above = |corner: Point| corner.y > point.y;
         let (mut nodes, mut edges) = (false, false);
         let enter = |node: &Node| {
@@ -134,21 +134,21 @@ impl Border {
             // A ray to the right crosses a chain of edges an odd number of times if the ends lie on two sides of it.
             if node.low[0] > point.x && !without.contains(&first) {
                 nodes ^= !node.has_rings
-                    && is_above(clip.edge(first as usize)[0]) != is_above(clip.edge(end as usize - 1)[1]);
+                    && is_above(rings.edge(first as usize)[0]) != is_above(rings.edge(end as usize - 1)[1]);
                 return false;
             }
             !(without.contains(&first) && end <= without.end)
         };
         self.visit(enter, |edge| {
-            edges ^= is_right_of(clip.edge(edge as usize), point);
+            edges ^= is_right_of(rings.edge(edge as usize), point);
             false
         });
         nodes != edges
     }
 
     /// Whether one of the edges behind this one, whose boxes have a place in common with its own, meets it.
-    pub(super) fn meets_later(&self, clip: &Clip, edge: u32, meets: impl Fn(u32) -> bool) -> bool {
-        let [low, high] = box_of(clip.edge(edge as usize));
+    pub(super) fn meets_later(&self, rings: &Rings, edge: u32, meets: impl Fn(u32) -> bool) -> bool {
+        let [low, high] = box_of(rings.edge(edge as usize));
         let enter = |node: &Node| {
             let overlaps = |axis: usize| node.low[axis] <= high[axis] && node.high[axis] >= low[axis];
             node.edges[1] > edge + 1 && overlaps(0) && overlaps(1)
@@ -160,7 +160,7 @@ impl Border {
     /// on the line come alone. A run is of one ring, or of some whole ones.
     pub(super) fn sides(
         &self,
-        clip: &Clip,
+        rings: &Rings,
         [first, end]: [u32; 2],
         line: Bisector,
         mut add: impl FnMut([u32; 2], Ordering),
@@ -175,7 +175,7 @@ impl Border {
                 at = node.skip as usize;
             } else {
                 if node.skip as usize == at + 1 {
-                    (part[0]..part[1]).for_each(|k| add([k, k + 1], line.side(clip.corners()[k as usize])));
+                    (part[0]..part[1]).for_each(|k| add([k, k + 1], line.side(rings.corners[k as usize])));
                 }
                 at += 1;
             }

@@ -3,9 +3,9 @@
 use super::clip::Clip;
 use super::clipped::ClippedCell;
 use super::clipper::Clipper;
-use super::cut::{Bend, Side};
 use super::diagram::{Cell, Voronoi};
 use super::place::Place;
+use super::view::{Bend, Side};
 use crate::point::Point;
 
 /// Clips the cells of a diagram, one after the other, in memory that is used again.

@@ -7,18 +7,14 @@ use core::ops::Range;
 use super::border::{Bisector, Border};
 use super::corner::{cross, dot, vector};
 use super::error::Error;
+use super::rings::Rings;
 use crate::point::{Point, MAX_COORD_BITS};
 use crate::predicate::orient2d;
 
 /// A simple polygon to which cells are clipped: an outer ring of any shape, perhaps with holes.
 #[derive(Clone, Debug)]
 pub struct Clip {
-    /// The outer ring, counter-clockwise, then the holes, clockwise.
-    corners: Vec<Point>,
-    /// The end of each ring in the list.
-    ends: Vec<usize>,
-    /// The corner behind each corner in its ring.
-    next: Vec<u32>,
+    rings: Rings,
     border: Border,
 }
 
@@ -58,14 +54,14 @@ impl Clip {
     /// # Errors
     /// As for [`polygon`](Self::polygon), for any of the rings; a hole outside the outer ring, or inside another hole.
     pub fn with_holes(outer: &[Point], holes: &[Vec<Point>]) -> Result<Self, Error> {
-        let mut clip = Self { corners: Vec::new(), ends: Vec::new(), next: Vec::new(), border: Border::default() };
+        let mut clip = Self { rings: Rings::default(), border: Border::default() };
         for ring in core::iter::once(outer).chain(holes.iter().map(Vec::as_slice)) {
             clip.add_ring(ring)?;
         }
-        clip.border = Border::of(&clip);
+        clip.border = Border::of(&clip.rings);
         clip.refuse_crossings()?;
         clip.turn_rings()?;
-        clip.border = Border::of(&clip);
+        clip.border = Border::of(&clip.rings);
         clip.refuse_misplaced_holes()?;
         Ok(clip)
     }
@@ -109,18 +105,18 @@ impl Clip {
         if ring.len() < 3 {
             return Err(Error::EmptyClip);
         }
-        let begin = self.corners.len();
-        self.next.extend((1..ring.len()).map(|k| (begin + k) as u32).chain([begin as u32]));
-        self.corners.extend(ring);
-        self.ends.push(self.corners.len());
+        let begin = self.rings.corners.len();
+        self.rings.next.extend((1..ring.len()).map(|k| (begin + k) as u32).chain([begin as u32]));
+        self.rings.corners.extend(ring);
+        self.rings.ends.push(self.rings.corners.len());
         Ok(())
     }
 
     /// Turns the outer ring counter-clockwise and the holes clockwise.
     fn turn_rings(&mut self) -> Result<(), Error> {
         let mut begin = 0;
-        for (number, &end) in self.ends.iter().enumerate() {
-            let ring = &mut self.corners[begin..end];
+        for (number, &end) in self.rings.ends.iter().enumerate() {
+            let ring = &mut self.rings.corners[begin..end];
             match twice_area(ring) {
                 0 => return Err(Error::EmptyClip),
                 area if (area > 0) != (number == 0) => ring.reverse(),
@@ -133,23 +129,23 @@ impl Clip {
 
     /// Refuses a hole outside the outer ring or inside another hole. Rings have no common place, so any corner tells.
     fn refuse_misplaced_holes(&self) -> Result<(), Error> {
-        let ring = |hole: usize| self.ends[hole - 1]..self.ends[hole];
+        let ring = |hole: usize| self.rings.ends[hole - 1]..self.rings.ends[hole];
         // If each hole lies in an odd number of other rings, each lies in the outer one alone: in a chain of nested
         // rings every second one, beginning with the outermost, lies in an even number, and no hole does.
         let is_odd = |hole: usize| {
             let Range { start, end } = ring(hole);
-            self.border.is_inside(self, self.corners[start], start as u32..end as u32)
+            self.border.is_inside(&self.rings, self.rings.corners[start], start as u32..end as u32)
         };
-        if (1..self.ends.len()).all(is_odd) {
+        if (1..self.rings.ends.len()).all(is_odd) {
             return Ok(());
         }
         let holds = |edges: Range<usize>, corner: Point| is_inside(edges.map(|edge| self.edge(edge)), corner);
         let is_misplaced = |hole: usize| {
-            let corner = self.corners[ring(hole).start];
+            let corner = self.rings.corners[ring(hole).start];
             let is_in = |other: usize| other != hole && holds(ring(other), corner);
-            !holds(0..self.ends[0], corner) || (1..self.ends.len()).any(is_in)
+            !holds(0..self.rings.ends[0], corner) || (1..self.rings.ends.len()).any(is_in)
         };
-        match (1..self.ends.len()).find(|&hole| is_misplaced(hole)) {
+        match (1..self.rings.ends.len()).find(|&hole| is_misplaced(hole)) {
             Some(ring) => Err(Error::MisplacedHole { hole: ring - 1 }),
             None => Ok(()),
         }
@@ -158,42 +154,33 @@ impl Clip {
     /// The corners of all rings: those of the outer ring, counter-clockwise, then those of each hole, clockwise. Edge
     /// `k` leads from corner `k` to the next one of its ring.
     pub fn corners(&self) -> &[Point] {
-        &self.corners
+        &self.rings.corners
     }
 
     /// The rings, in the order of their [`corners`](Self::corners): the outer one, then the holes.
     pub fn rings(&self) -> impl Iterator<Item = &[Point]> {
         let mut begin = 0;
-        self.ends.iter().map(move |&end| &self.corners[core::mem::replace(&mut begin, end)..end])
+        self.rings.ends.iter().map(move |&end| &self.rings.corners[core::mem::replace(&mut begin, end)..end])
     }
 
     /// The two ends of an edge.
     pub(super) fn edge(&self, edge: usize) -> [Point; 2] {
-        [self.corners[edge], self.corners[self.next[edge] as usize]]
+        self.rings.edge(edge)
     }
 
     /// The ends of the rings that lie in a range of corners, which has some whole rings or a part of one.
-    pub(super) fn ring_ends(&self, [first, end]: [u32; 2]) -> &[usize] {
-        let place = |corner: u32| self.ends.partition_point(|&other| other <= corner as usize);
-        &self.ends[place(first)..place(end)]
+    pub(super) fn ring_ends(&self, corners: [u32; 2]) -> &[usize] {
+        self.rings.ring_ends(corners)
     }
 
     /// Whether a ring ends before the corner of this number.
     pub(super) fn ends_ring(&self, number: u32) -> bool {
-        self.ends.binary_search(&(number as usize)).is_ok()
-    }
-
-    /// The place nearest to the middle of a range of corners at which one ring follows another; `None` if all are of
-    /// one ring.
-    pub(super) fn ring_between(&self, [first, end]: [u32; 2]) -> Option<u32> {
-        let middle = first + (end - first) / 2;
-        let inner = self.ring_ends([first, end - 1]).iter().map(|&place| place as u32);
-        inner.min_by_key(|place| place.abs_diff(middle))
+        self.rings.ends_ring(number)
     }
 
     /// Whether an edge belongs to a hole.
     pub(super) fn is_of_hole(&self, edge: u32) -> bool {
-        edge as usize >= self.ends[0]
+        edge as usize >= self.rings.ends[0]
     }
 
     /// Twice the area, exactly, in squares of the grid.
@@ -203,35 +190,36 @@ impl Clip {
 
     /// The lower left and the upper right corner of the smallest rectangle around the polygon.
     pub fn bounds(&self) -> [Point; 2] {
-        let (xs, ys) = (self.corners.iter().map(|corner| corner.x), self.corners.iter().map(|corner| corner.y));
+        let (xs, ys) =
+            (self.rings.corners.iter().map(|corner| corner.x), self.rings.corners.iter().map(|corner| corner.y));
         let low = Point::new(xs.clone().min().unwrap_or(0), ys.clone().min().unwrap_or(0));
         [low, Point::new(xs.max().unwrap_or(0), ys.max().unwrap_or(0))]
     }
 
     /// Whether the border may have a place in a box of doubles, which may be infinite.
     pub(crate) fn may_touch(&self, low: [f64; 2], high: [f64; 2]) -> bool {
-        self.border.may_touch(self, low, high)
+        self.border.may_touch(&self.rings, low, high)
     }
 
     /// Whether the polygon contains a point that is not on its border.
     pub(crate) fn contains(&self, point: Point) -> bool {
-        self.border.is_inside(self, point, 0..0)
+        self.border.is_inside(&self.rings, point, 0..0)
     }
 
     /// The corners in runs on one side of a line; see [`Border::sides`].
     pub(super) fn sides(&self, corners: [u32; 2], line: Bisector, add: impl FnMut([u32; 2], Ordering)) {
-        self.border.sides(self, corners, line, add);
+        self.border.sides(&self.rings, corners, line, add);
     }
 
     /// Refuses rings in which edges that are not consecutive meet, or consecutive ones overlap.
     fn refuse_crossings(&self) -> Result<(), Error> {
         let meets_later =
-            |edge: usize| self.border.meets_later(self, edge as u32, |other| self.meet(edge, other as usize));
-        if !(0..self.corners.len()).any(meets_later) {
+            |edge: usize| self.border.meets_later(&self.rings, edge as u32, |other| self.meet(edge, other as usize));
+        if !(0..self.rings.corners.len()).any(meets_later) {
             return Ok(());
         }
         let low = |edge: usize| self.edge(edge).map(|end| end.x).into_iter().min().unwrap_or(0);
-        let mut order: Vec<usize> = (0..self.corners.len()).collect();
+        let mut order: Vec<usize> = (0..self.rings.corners.len()).collect();
         order.sort_unstable_by_key(|&edge| low(edge));
         for (place, &one) in order.iter().enumerate() {
             let [a, b] = self.edge(one);
@@ -251,7 +239,7 @@ impl Clip {
             // Consecutive edges: they share more than the corner if they point back.
             let (from, middle, to) = if b == c { (a, b, d) } else { (c, a, b) };
             let (back, on) = (vector(middle, from), vector(middle, to));
-            let is_consecutive = self.next[one] as usize == other || self.next[other] as usize == one;
+            let is_consecutive = self.rings.next[one] as usize == other || self.rings.next[other] as usize == one;
             return !is_consecutive || (cross(back, on) == 0 && dot(back, on) > 0);
         }
         let apart = |[a, b]: [Point; 2], [c, d]: [Point; 2]| a.x.max(b.x) < c.x.min(d.x) || a.y.max(b.y) < c.y.min(d.y);

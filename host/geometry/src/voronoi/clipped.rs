@@ -4,8 +4,8 @@ use core::cmp::Ordering;
 
 use super::clip::Clip;
 use super::corner::Corner;
-use super::cut::{Bend, Side};
 use super::place::Place;
+use super::view::{Bend, Side};
 use crate::point::Point;
 use crate::predicate::orient2d;
 

@@ -5,8 +5,9 @@ use core::mem;
 
 use super::clip::Clip;
 use super::clipped::ClippedCell;
-use super::cut::{Bend, Cutter, View};
+use super::cut::Cutter;
 use super::ring_list::{Item, RingList};
+use super::view::{Bend, View};
 use crate::point::Point;
 
 /// The rings of one clipped cell, and the memory in which they are made.
@@ -83,7 +84,7 @@ impl<'a> Clipper<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::voronoi::cut::Side;
+    use crate::voronoi::view::Side;
     use crate::voronoi::place::Place;
     use crate::voronoi::tests::{draw, draw_clip, draw_holes, mesh_of, sets};
     use crate::voronoi::Voronoi;

@@ -59,8 +59,10 @@ mod diagram;
 mod error;
 mod place;
 mod ring_list;
+mod rings;
 #[cfg(test)]
 mod tests;
+mod view;
 mod wide;
 
 pub use cells::Cells;
@@ -69,6 +71,6 @@ pub use clipped::{ClippedCell, Piece, Ring};
 pub(crate) use clipper::Clipper;
 pub(crate) use corner::center_seen;
 pub use corner::{nearest_quotient, Corner};
-pub use cut::Side;
 pub use diagram::{Cell, Edge, Voronoi};
 pub use error::Error;
+pub use view::Side;

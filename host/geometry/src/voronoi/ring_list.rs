@@ -6,8 +6,8 @@ use core::cmp::Ordering;
 
 use super::border::Bisector;
 use super::clip::Clip;
-use super::cut::{Bend, Side, View};
 use super::place::Place;
+use super::view::{Bend, Side, View};
 
 /// A corner of a ring, or a run of corners of the clip.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -34,7 +34,7 @@ fn jobs_without_bits_survive_every_fault_of_the_line() {
         "babble=0.05",
         "stall=0.05,stall-ms=30",
     ] {
-        let report = soak(&jobs(Detail::Bytes, spec, JOBS, 400)).unwrap();
+        let report = soak(&jobs(Detail::Bytes, spec, JOBS, 600)).unwrap();
         println!("{spec}: {report}");
         assert_eq!((report.right, report.wrong), (JOBS, 0), "{spec}: {report}");
         // At the lowest rate few of these jobs meet a fault, and possibly none.
