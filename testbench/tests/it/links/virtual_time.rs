@@ -10,7 +10,7 @@ use incircle_testbench::link::{measure, soak, Detail, Soak, VirtualLine, RATES, 
 const TRIP: Duration = Duration::from_millis(1);
 const LIMIT: Duration = Duration::from_secs(5);
 /// Number of jobs for each fault.
-const JOBS: u64 = 5;
+const JOBS: u64 = 8;
 
 fn jobs(detail: Detail, spec: &str, jobs: u64, points: usize) -> Soak {
     Soak { detail, config: SMALL, faults: spec.parse().unwrap(), rate: 12_000_000, jobs, points }
