@@ -84,9 +84,9 @@ impl<'a> Clipper<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::voronoi::view::Side;
     use crate::voronoi::place::Place;
     use crate::voronoi::tests::{draw, draw_clip, draw_holes, mesh_of, sets};
+    use crate::voronoi::view::Side;
     use crate::voronoi::Voronoi;
     use incircle_testkit::SplitMix64;
 
