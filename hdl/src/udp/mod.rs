@@ -6,8 +6,9 @@
 //! in:  DatagramReader -> DatagramMatch -> DatagramJudge -> UdpSessionState; SenderStore; ReceiveFifo; DatagramDigest
 //! out: DatagramReplies, AnswerParts -> FrameChoice -> DatagramParts -> DatagramHeader, DatagramBytes -> DatagramSums
 //! ```
-//! All of them run in the clock of the core, a byte a clock. `ReceiveFifo`, `FrameChoice`, `WordNarrower`,
-//! `CommandProgress` and `LineTimers` are those of the [serial link](crate::serial).
+//! All of them run in the clock of the core, a byte a clock, but `ResetHandshake`, which resets both sides of a device.
+//! `ReceiveFifo`, `FrameChoice`, `WordNarrower`, `CommandProgress` and `LineTimers` are those of the [serial
+//! link](crate::serial).
 
 mod answer_parts;
 mod datagram_bytes;

@@ -98,20 +98,24 @@ impl Border {
         [low, high]
     }
 
-    /// Visits the nodes from above. `enter` says whether the children of a node, or its edges, are wanted, and `edge`
-    /// is called with each edge of a node without children until it returns true. Returns whether it did.
-    fn visit(&self, mut enter: impl FnMut(&Node) -> bool, mut edge: impl FnMut(u32) -> bool) -> bool {
+    /// Visits the nodes from above. `enter` says whether the children of a node, or its edges, are wanted. `edge` is
+    /// called with each edge of a node without children until it returns true, and that edge is returned. Edges come in
+    /// the order of their numbers.
+    fn visit(&self, mut enter: impl FnMut(&Node) -> bool, mut edge: impl FnMut(u32) -> bool) -> Option<u32> {
         let mut at = 0;
         while let Some(node) = self.nodes.get(at) {
             at = if !enter(node) {
                 node.skip as usize
-            } else if node.skip as usize == at + 1 && (node.edges[0]..node.edges[1]).any(&mut edge) {
-                return true;
             } else {
+                let has_children = node.skip as usize > at + 1;
+                let mut own = if has_children { 0..0 } else { node.edges[0]..node.edges[1] };
+                if let Some(found) = own.find(|&number| edge(number)) {
+                    return Some(found);
+                }
                 at + 1
             };
         }
-        false
+        None
     }
 
     /// Whether the box of an edge and a box of doubles have a place in common. The box may be infinite.
@@ -119,7 +123,7 @@ impl Border {
         let overlaps = |[from, to]: [[u32; 2]; 2]| {
             (0..2).all(|axis| low[axis] <= f64::from(to[axis]) && high[axis] >= f64::from(from[axis]))
         };
-        self.visit(|node| overlaps([node.low, node.high]), |edge| overlaps(box_of(rings.edge(edge as usize))))
+        self.visit(|node| overlaps([node.low, node.high]), |edge| overlaps(box_of(rings.edge(edge as usize)))).is_some()
     }
 
     /// Whether an odd number of rings contains a point that is on none of them, without the ring of these edges.
@@ -146,8 +150,8 @@ impl Border {
         nodes != edges
     }
 
-    /// Whether one of the edges behind this one, whose boxes have a place in common with its own, meets it.
-    pub(super) fn meets_later(&self, rings: &Rings, edge: u32, meets: impl Fn(u32) -> bool) -> bool {
+    /// The first of the edges behind this one that meets it, of those whose boxes have a place in common with its own.
+    pub(super) fn first_met(&self, rings: &Rings, edge: u32, meets: impl Fn(u32) -> bool) -> Option<u32> {
         let [low, high] = box_of(rings.edge(edge as usize));
         let enter = |node: &Node| {
             let overlaps = |axis: usize| node.low[axis] <= high[axis] && node.high[axis] >= low[axis];
@@ -209,7 +213,7 @@ mod tests {
         for number in 0..sets() {
             let clip = if number % 2 == 0 { Some(draw_clip(&mut random)) } else { draw_holes(&mut random) };
             let Some(clip) = clip else { continue };
-            let edges: Vec<[Point; 2]> = (0..clip.corners().len()).map(|edge| clip.edge(edge)).collect();
+            let edges: Vec<[Point; 2]> = (0..clip.corners().len()).map(|edge| clip.rings.edge(edge)).collect();
             for _ in 0..20 {
                 let point = Point::new(random.below_u32(16), random.below_u32(16));
                 let is_inside = edges.iter().filter(|&&edge| is_right_of(edge, point)).count() % 2 == 1;

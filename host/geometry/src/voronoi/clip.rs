@@ -14,7 +14,7 @@ use crate::predicate::orient2d;
 /// A simple polygon to which cells are clipped: an outer ring of any shape, perhaps with holes.
 #[derive(Clone, Debug)]
 pub struct Clip {
-    rings: Rings,
+    pub(super) rings: Rings,
     border: Border,
 }
 
@@ -129,23 +129,13 @@ impl Clip {
 
     /// Refuses a hole outside the outer ring or inside another hole. Rings have no common place, so any corner tells.
     fn refuse_misplaced_holes(&self) -> Result<(), Error> {
-        let ring = |hole: usize| self.rings.ends[hole - 1]..self.rings.ends[hole];
         // If each hole lies in an odd number of other rings, each lies in the outer one alone: in a chain of nested
         // rings every second one, beginning with the outermost, lies in an even number, and no hole does.
-        let is_odd = |hole: usize| {
-            let Range { start, end } = ring(hole);
-            self.border.is_inside(&self.rings, self.rings.corners[start], start as u32..end as u32)
+        let is_misplaced = |ring: &usize| {
+            let Range { start, end } = self.rings.ends[ring - 1]..self.rings.ends[*ring];
+            !self.border.is_inside(&self.rings, self.rings.corners[start], start as u32..end as u32)
         };
-        if (1..self.rings.ends.len()).all(is_odd) {
-            return Ok(());
-        }
-        let holds = |edges: Range<usize>, corner: Point| is_inside(edges.map(|edge| self.edge(edge)), corner);
-        let is_misplaced = |hole: usize| {
-            let corner = self.rings.corners[ring(hole).start];
-            let is_in = |other: usize| other != hole && holds(ring(other), corner);
-            !holds(0..self.rings.ends[0], corner) || (1..self.rings.ends.len()).any(is_in)
-        };
-        match (1..self.rings.ends.len()).find(|&hole| is_misplaced(hole)) {
+        match (1..self.rings.ends.len()).find(is_misplaced) {
             Some(ring) => Err(Error::MisplacedHole { hole: ring - 1 }),
             None => Ok(()),
         }
@@ -161,26 +151,6 @@ impl Clip {
     pub fn rings(&self) -> impl Iterator<Item = &[Point]> {
         let mut begin = 0;
         self.rings.ends.iter().map(move |&end| &self.rings.corners[core::mem::replace(&mut begin, end)..end])
-    }
-
-    /// The two ends of an edge.
-    pub(super) fn edge(&self, edge: usize) -> [Point; 2] {
-        self.rings.edge(edge)
-    }
-
-    /// The ends of the rings that lie in a range of corners, which has some whole rings or a part of one.
-    pub(super) fn ring_ends(&self, corners: [u32; 2]) -> &[usize] {
-        self.rings.ring_ends(corners)
-    }
-
-    /// Whether a ring ends before the corner of this number.
-    pub(super) fn ends_ring(&self, number: u32) -> bool {
-        self.rings.ends_ring(number)
-    }
-
-    /// Whether an edge belongs to a hole.
-    pub(super) fn is_of_hole(&self, edge: u32) -> bool {
-        edge as usize >= self.rings.ends[0]
     }
 
     /// Twice the area, exactly, in squares of the grid.
@@ -213,20 +183,10 @@ impl Clip {
 
     /// Refuses rings in which edges that are not consecutive meet, or consecutive ones overlap.
     fn refuse_crossings(&self) -> Result<(), Error> {
-        let meets_later =
-            |edge: usize| self.border.meets_later(&self.rings, edge as u32, |other| self.meet(edge, other as usize));
-        if !(0..self.rings.corners.len()).any(meets_later) {
-            return Ok(());
-        }
-        let low = |edge: usize| self.edge(edge).map(|end| end.x).into_iter().min().unwrap_or(0);
-        let mut order: Vec<usize> = (0..self.rings.corners.len()).collect();
-        order.sort_unstable_by_key(|&edge| low(edge));
-        for (place, &one) in order.iter().enumerate() {
-            let [a, b] = self.edge(one);
-            for &other in order[place + 1..].iter().take_while(|&&other| low(other) <= a.x.max(b.x)) {
-                if self.meet(one, other) {
-                    return Err(Error::CrossedClip { one: one.min(other), other: one.max(other) });
-                }
+        for one in 0..self.rings.corners.len() {
+            let meets = |other: u32| self.meet(one, other as usize);
+            if let Some(other) = self.border.first_met(&self.rings, one as u32, meets) {
+                return Err(Error::CrossedClip { one, other: other as usize });
             }
         }
         Ok(())
@@ -234,7 +194,7 @@ impl Clip {
 
     /// Whether two edges have a place in common that they should not have.
     fn meet(&self, one: usize, other: usize) -> bool {
-        let ([a, b], [c, d]) = (self.edge(one), self.edge(other));
+        let ([a, b], [c, d]) = (self.rings.edge(one), self.rings.edge(other));
         if b == c || a == d {
             // Consecutive edges: they share more than the corner if they point back.
             let (from, middle, to) = if b == c { (a, b, d) } else { (c, a, b) };
@@ -254,16 +214,4 @@ impl Clip {
 /// Twice the area of a ring, negative if it is clockwise.
 fn twice_area(ring: &[Point]) -> i128 {
     ring.windows(2).map(|pair| i128::from(orient2d(ring[0], pair[0], pair[1]))).sum()
-}
-
-/// Whether rings with these edges have a point inside that is not on an edge.
-fn is_inside(edges: impl Iterator<Item = [Point; 2]>, point: Point) -> bool {
-    let mut is_inside = false;
-    for [a, b] in edges {
-        // Half open, so that a corner on the ray counts once.
-        if (a.y > point.y) != (b.y > point.y) {
-            is_inside ^= (orient2d(a, b, point) > 0) == (b.y > a.y);
-        }
-    }
-    is_inside
 }

@@ -48,7 +48,7 @@ impl<'a> ClippedCell<'a> {
             let (bends, others) = rest.split_at(count.min(rest.len()));
             rest = others;
             // A hole that the border of a cell meets becomes part of the border of a piece.
-            let is_of_hole = |bend: &Bend| matches!(bend.side, Side::Clip(edge) if clip.is_of_hole(edge));
+            let is_of_hole = |bend: &Bend| matches!(bend.side, Side::Clip(edge) if clip.rings.is_of_hole(edge));
             Ring { p, bends, is_hole: bends.iter().all(is_of_hole) }
         })
     }
@@ -115,7 +115,7 @@ impl<'a> ClippedCell<'a> {
             // The side of the point on the line through the edge: left of it is greater.
             let line = match bend.side {
                 Side::Clip(edge) => {
-                    let [a, b] = self.clip.edge(edge as usize);
+                    let [a, b] = self.clip.rings.edge(edge as usize);
                     orient2d(a, b, point).cmp(&0)
                 }
                 // Borders have the point of the cell on their left.

@@ -90,7 +90,7 @@ impl RingList {
         clip.sides(rings, line, |run, side| {
             self.push(begin, run, side, sides);
             // A run ends with its ring, or before.
-            if clip.ends_ring(run[1]) {
+            if clip.rings.ends_ring(run[1]) {
                 self.counts.push(self.items.len() - begin);
                 begin = self.items.len();
             }
@@ -126,7 +126,8 @@ impl RingList {
             match ring {
                 &[Item::Run(run)] => {
                     let mut from = run[0] as usize;
-                    counts.extend(clip.ring_ends(run).iter().map(|&end| end - core::mem::replace(&mut from, end)));
+                    counts
+                        .extend(clip.rings.ring_ends(run).iter().map(|&end| end - core::mem::replace(&mut from, end)));
                 }
                 _ => counts.push(bends.len() - begin),
             }

@@ -39,4 +39,9 @@ impl Rings {
         let inner = self.ring_ends([first, end - 1]).iter().map(|&place| place as u32);
         inner.min_by_key(|place| place.abs_diff(middle))
     }
+
+    /// Whether an edge belongs to a hole.
+    pub(super) fn is_of_hole(&self, edge: u32) -> bool {
+        edge as usize >= self.ends[0]
+    }
 }

@@ -34,7 +34,7 @@ impl View<'_> {
     pub(super) fn meet(&self, side: Side, q: Point) -> Place {
         match side {
             Side::Clip(edge) => {
-                let [a, b] = self.clip.edge(edge as usize);
+                let [a, b] = self.clip.rings.edge(edge as usize);
                 Place::Crossing([a, b, q])
             }
             Side::Neighbor(neighbor) => Place::center(self.p, [self.points[neighbor as usize], q]),
@@ -45,7 +45,7 @@ impl View<'_> {
     pub(super) fn direction(&self, side: Side) -> [i64; 2] {
         match side {
             Side::Clip(edge) => {
-                let [a, b] = self.clip.edge(edge as usize);
+                let [a, b] = self.clip.rings.edge(edge as usize);
                 vector(a, b)
             }
             Side::Neighbor(neighbor) => {

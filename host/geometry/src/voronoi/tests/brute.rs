@@ -207,6 +207,7 @@ fn rings_that_cross_are_refused() {
         };
         let edge = |k: usize| [ring[k], ring[(k + 1) % count]];
         let mut is_simple = (0..count).all(|k| edge(k)[0] != edge(k)[1]);
+        let mut first = (count, count);
         for (one, other) in (0..count).flat_map(|one| (0..one).map(move |other| (one, other))) {
             let ([a, b], [c, d]) = (edge(one), edge(other));
             let side = |a, b, c| orient2d(a, b, c).signum();
@@ -215,11 +216,17 @@ fn rings_that_cross_are_refused() {
                 + [a, b].into_iter().filter(|&end| is_on([c, d], end)).count();
             // Consecutive edges have their common corner, which counts once for each.
             let is_consecutive = one - other == 1 || one - other == count - 1;
-            is_simple &= !crosses && touches == if is_consecutive { 2 } else { 0 };
+            if crosses || touches != if is_consecutive { 2 } else { 0 } {
+                is_simple = false;
+                first = first.min((other, one));
+            }
         }
         let found = Clip::polygon(&ring);
         if (0..count).all(|k| edge(k)[0] != edge(k)[1]) {
             assert_eq!(found.is_ok(), is_simple, "{ring:?}: {found:?}");
+            if let Err(Error::CrossedClip { one, other }) = found {
+                assert_eq!((one, other), first, "the first edge that meets another, and the first of these: {ring:?}");
+            }
         }
     }
 }
