@@ -183,7 +183,7 @@ pub(crate) struct BoardArguments {
     pub(crate) link: LinkName,
     #[command(flatten)]
     pub(crate) network: NetworkArguments,
-    /// Clock to try: a number of MHz; `usual`, the usual clock of the core on the board; or `largest`, the largest
+    /// Clock to try: a number of MHz; `usual`, the usual clock of the core behind its link; or `largest`, the largest
     /// clock that the board meets. Default: the usual clock, and lower ones while it is missed.
     #[arg(long, value_name = "MHZ", value_parser = clock)]
     pub(crate) clock: Option<Clock>,

@@ -1,6 +1,6 @@
 //! Makes a bitstream and its report: export, synthesis, place and route with several seeds, packing.
 //!
-//! The clock is the usual one of the core on the board if the median of the seeds meets it. If the median misses a
+//! The clock is the usual one of the core behind its link if the median of the seeds meets it. If the median misses a
 //! clock, the median tells what is within reach, so the next clock tried is the largest one of the board's list that
 //! the median meets.
 
@@ -27,9 +27,9 @@ const REPORT: &str = "report.json";
 /// The choice of the clocks to try.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clock {
-    /// The usual clock of the core on the board, and lower ones while it is missed.
+    /// The usual clock of the core behind its link, and lower ones while it is missed.
     UsualOrLess,
-    /// The usual clock of the core on the board, and no other.
+    /// The usual clock of the core behind its link, and no other.
     Usual,
     /// The largest clock that a user may ask of the board, and lower ones while it is missed.
     Largest,
@@ -155,10 +155,11 @@ fn bitstream(request: &Request) -> String {
 
 /// The clocks to try, the largest one first.
 fn clocks(request: &Request) -> Result<Vec<u32>, BoardError> {
-    let (board, core) = (request.board, request.board.core(request.config));
+    let board = request.board;
+    let usual_mhz = request.link.usual_mhz(&board, request.config)?;
     match request.clock {
-        Clock::UsualOrLess => Ok(board.clocks(core.usual_mhz)),
-        Clock::Usual => Ok(vec![core.usual_mhz]),
+        Clock::UsualOrLess => Ok(board.clocks(usual_mhz)),
+        Clock::Usual => Ok(vec![usual_mhz]),
         Clock::Largest => Ok(board.clocks(board.most_mhz)),
         Clock::Exactly(clock_mhz) if board.clocks(board.most_mhz).contains(&clock_mhz) => Ok(vec![clock_mhz]),
         Clock::Exactly(clock_mhz) => Err(BoardError::Clock {

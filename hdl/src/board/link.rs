@@ -37,6 +37,17 @@ impl BoardLink {
         board.top.to_owned() + &self.suffix().replace('-', "_")
     }
 
+    /// The clock in MHz of a core of the board behind this link, unless the user names another.
+    ///
+    /// # Errors
+    /// If the board has no port for this link.
+    pub fn usual_mhz(self, board: &Board, config: Config) -> Result<u32, BoardError> {
+        Ok(match self {
+            Self::Serial => board.core(config).usual_mhz,
+            Self::Udp(_) => board.port()?.usual_mhz,
+        })
+    }
+
     /// The name that the clock of the PHY has at its pin, if the link has such a clock.
     pub(super) fn port_clock(self) -> Option<&'static str> {
         matches!(self, Self::Udp(_)).then_some("rgmii_rx_clock")

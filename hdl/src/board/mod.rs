@@ -113,7 +113,7 @@ pub const BOARDS: [Board; 3] = [
         bridge_rate: 115_200,
         // litex-boards' target delays nothing on the way to the PHY, and LiteEth received data by 2 ns unless told
         // else.
-        ethernet: Some(Rgmii { phy: "B50612D", delay: 80, clock_delay: 0 }),
+        ethernet: Some(Rgmii { phy: "B50612D", usual_mhz: 105, delay: 80, clock_delay: 0 }),
     },
     Board {
         name: "ecpix-5",
@@ -129,7 +129,7 @@ pub const BOARDS: [Board; 3] = [
         bridge: "FT2232H",
         bridge_rate: 12_000_000,
         // litex-boards' target delays no received data, and LiteEth the clock to the PHY by 2 ns unless told else.
-        ethernet: Some(Rgmii { phy: "gigabit PHY", delay: 0, clock_delay: 80 }),
+        ethernet: Some(Rgmii { phy: "gigabit PHY", usual_mhz: 150, delay: 0, clock_delay: 80 }),
     },
 ];
 

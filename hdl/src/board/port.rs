@@ -11,6 +11,9 @@ pub(super) const PORT_MHZ: u32 = 125;
 pub struct Rgmii {
     /// Type of the PHY.
     pub phy: &'static str,
+    /// The clock of the core behind this port, in MHz, unless the user names another. With a second clock and the
+    /// memories of the port, a core may meet less than behind the serial line.
+    pub usual_mhz: u32,
     /// Taps of 25 ps, 0 to 127, by which the FPGA delays the data from the PHY.
     pub delay: u8,
     /// Taps of 25 ps, 0 to 127, by which the FPGA delays the clock to the PHY.

@@ -95,6 +95,12 @@ fn without_a_clock_a_lower_one_is_tried() {
 }
 
 #[test]
+fn a_port_has_a_usual_clock_of_its_own() {
+    let (report, _) = make(&folder("port"), &["--link", "udp", "--clock", "usual"], "106.0 107.0 108.0");
+    assert_eq!((report.clock_mhz, report.met), (105, true));
+}
+
+#[test]
 fn the_lowest_clock_of_the_board_is_the_last() {
     let out = folder("lowest");
     let said = refusal(&build(&out, &["--seeds", "1"], "49.0", ""));

@@ -80,6 +80,9 @@ fn the_oscillator_is_constrained_as_the_pll_is_computed() {
         for core in board.cores {
             assert_eq!(board.clocks(core.usual_mhz).first(), Some(&core.usual_mhz), "{}", board.name);
         }
+        for usual_mhz in board.ethernet.map(|port| port.usual_mhz) {
+            assert_eq!(board.clocks(usual_mhz).first(), Some(&usual_mhz), "{}", board.name);
+        }
     }
 }
 
@@ -94,24 +97,33 @@ fn tables_are_what_the_reports_say() {
 #[test]
 fn reports_are_whole() {
     for (board, core) in BOARDS.into_iter().flat_map(|board| board.cores.iter().map(move |&core| (board, core))) {
-        let path = board.report(core.config, "").expect("a core of the board");
-        if !path.exists() {
-            continue;
+        report_is_whole(board, core.config, "", core.usual_mhz);
+        for usual_mhz in board.ethernet.map(|port| port.usual_mhz) {
+            report_is_whole(board, core.config, "-udp", usual_mhz);
         }
-        let report = Report::read(&path).unwrap();
-        assert_eq!((report.board.as_str(), report.device.as_str()), (board.name, board.device));
-        assert!(report.seeds.len() >= 3, "{}: {} seeds", board.name, report.seeds.len());
-        assert_eq!(report.fmax_mhz, Summary::of(&report.seeds));
-        assert_eq!(report.met, report.fmax_mhz.median >= f64::from(report.clock_mhz));
-        assert_eq!(report.met, report.bitstream.is_some() && report.picked_seed.is_some());
-        assert_eq!(
-            (report.met, report.clock_mhz),
-            (true, core.usual_mhz),
-            "{}: the clock of the table is the usual one",
-            board.name
-        );
-        let Config { name, points, contexts, engines, .. } = core.config;
-        assert_eq!(report.configuration, name);
-        assert_eq!((report.points, report.contexts, report.engines), (points, contexts, engines), "{}", board.name);
     }
+}
+
+/// Fails if there is a report on this core behind the link of this suffix, and it lacks something, or is of another
+/// clock than the usual one.
+fn report_is_whole(board: Board, config: Config, suffix: &str, usual_mhz: u32) {
+    let path = board.report(config, suffix).expect("a core of the board");
+    if !path.exists() {
+        return;
+    }
+    let report = Report::read(&path).unwrap();
+    assert_eq!((report.board.as_str(), report.device.as_str()), (board.name, board.device));
+    assert!(report.seeds.len() >= 3, "{}: {} seeds", path.display(), report.seeds.len());
+    assert_eq!(report.fmax_mhz, Summary::of(&report.seeds));
+    assert_eq!(report.met, report.fmax_mhz.median >= f64::from(report.clock_mhz));
+    assert_eq!(report.met, report.bitstream.is_some() && report.picked_seed.is_some());
+    assert_eq!(
+        (report.met, report.clock_mhz),
+        (true, usual_mhz),
+        "{}: the clock of the table is the usual one",
+        path.display()
+    );
+    let Config { name, points, contexts, engines, .. } = config;
+    assert_eq!(report.configuration, name);
+    assert_eq!((report.points, report.contexts, report.engines), (points, contexts, engines), "{}", path.display());
 }
