@@ -1,11 +1,19 @@
 //! The mapping of a design to the ECP5 and its placement, in the words of the files in `constraints/ecp5`.
 //! `constraints/ecp5/timing` reads the same files.
 
+use incircle_protocol::Config;
+
 /// The passes of yosys, with the placeholder TOP for the root module.
 const PASSES: &str = include_str!("../../../constraints/ecp5/mapping.ys");
 
 /// Options of nextpnr, one or more a line.
 const PLACER: &str = include_str!("../../../constraints/ecp5/placer.txt");
+
+/// Options of nextpnr for chips of more than [`ROOMY_ENGINES`] engines.
+const CROWDED: &str = include_str!("../../../constraints/ecp5/crowded.txt");
+
+/// The most engines on a chip that the options of most chips can route.
+const ROOMY_ENGINES: u32 = 2;
 
 /// The file that fixes the places of block RAMs of the configuration `full` in the largest devices.
 pub(super) const FLOORPLAN: &str = "floorplan.ys";
@@ -16,9 +24,10 @@ pub fn mapping(top: &str) -> String {
     passes.join("; ")
 }
 
-/// Options of nextpnr, except those that name files and the device.
-pub(super) fn placer() -> impl Iterator<Item = &'static str> {
-    lines(PLACER).flat_map(str::split_whitespace)
+/// Options of nextpnr for a chip of this configuration, except those that name files and the device.
+pub(super) fn placer(config: Config) -> impl Iterator<Item = &'static str> {
+    let options = if config.engines > ROOMY_ENGINES { CROWDED } else { PLACER };
+    lines(options).flat_map(str::split_whitespace)
 }
 
 /// The lines that are neither empty nor comments.
@@ -29,12 +38,16 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use incircle_protocol::{DUAL, FULL, QUAD};
 
     #[test]
     fn comments_and_placeholders_are_gone() {
         let mapping = mapping("some_top");
         assert!(mapping.starts_with("hierarchy -top some_top; proc; "), "{mapping}");
         assert!(!mapping.contains("TOP") && !mapping.contains('#') && !mapping.contains('\n'), "{mapping}");
-        assert!(placer().eq(["--placer", "static", "--tmg-ripup"]));
+        for config in [FULL, DUAL] {
+            assert!(placer(config).eq(["--placer", "static", "--tmg-ripup"]));
+        }
+        assert!(placer(QUAD).eq(["--placer", "static", "--router", "router2"]));
     }
 }
