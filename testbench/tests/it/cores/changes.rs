@@ -5,12 +5,12 @@
 //! A host puts no vertex and no place twice into one run. Where a script does, the order of the items is the core's own.
 //! Then its parts say which items were done, and the model by commands does these alone: the meshes must be equal.
 
-use incircle_model::CommandModel;
+use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{
-    command_word, Clear, Config, Located, Meshes, Opcode, Outcome, RunKind, CORE_COORD_BITS, SMALL, TINY,
+    command_word, Clear, Config, Located, Meshes, Opcode, Outcome, RunKind, CORE_COORD_BITS, FULL, SMALL, TINY,
 };
 use incircle_testbench::lockstep::{Fault, Job, Lockstep, Mismatch, Stalls, CHANGE_FAULTS};
-use incircle_testkit::SplitMix64;
+use incircle_testkit::{generate, Distribution, SplitMix64};
 use std::collections::BTreeSet;
 
 const CROWD: Config = Config { points: 64, ring: 6, contexts: 8, ..TINY };
@@ -25,8 +25,9 @@ struct Rig {
     config: Config,
     random: SplitMix64,
     stalls: Stalls,
-    /// Whether a mesh stands.
+    /// Whether a mesh stands, and the places that have been named since the last clear.
     stands: bool,
+    places: Vec<u32>,
     /// Parts by their outcome; in place 15, runs with a vertex or a place twice.
     seen: [usize; 16],
 }
@@ -38,7 +39,16 @@ impl Rig {
             .with_contexts(config.contexts)
             .with_runs();
         let (random, stalls) = (SplitMix64::new(seed), Stalls::ALL[seed as usize % 9]);
-        Self { pair: pair.with_questions(), commands, config, random, stalls, stands: false, seen: [0; 16] }
+        Self {
+            pair: pair.with_questions(),
+            commands,
+            config,
+            random,
+            stalls,
+            stands: false,
+            places: Vec::new(),
+            seen: [0; 16],
+        }
     }
 
     /// The answer of the model by commands.
@@ -69,12 +79,14 @@ impl Rig {
         let contexts = self.random.below(u64::from(self.config.contexts) + 1) as u32;
         let clear = Clear { contexts, meshes: Meshes::One, tag: self.random.bits(8) as u8 };
         self.stands = false;
+        self.places.clear();
         self.same(&[clear.word()]).map(drop)
     }
 
     fn insert(&mut self, points: &[u32]) -> Result<(), Box<Mismatch>> {
         let report = self.same(&[&[command_word(Opcode::Insert), points.len() as u32], points].concat())?;
         self.stands = report[6] > 0;
+        self.places.extend_from_slice(points);
         Ok(())
     }
 
@@ -148,17 +160,20 @@ impl Rig {
         let (mut vertices, mut places) = (BTreeSet::new(), BTreeSet::new());
         let mut items = Vec::new();
         for _ in 0..self.random.below(most + 1) {
-            let vertex = match self.random.below(12) {
+            let vertex = match self.random.below(16) {
                 0 => u64::from(self.random.bits(32)),
                 1 => points + self.random.below(2),
                 2..=5 => self.random.below(points.min(20)),
                 _ => self.random.below(points),
             } as u32;
-            let place = place(&mut self.random, side);
+            // Often a place that has a vertex, so that items of all ends meet.
+            let known = self.random.below(3 * self.places.len() as u64 + 1) as usize;
+            let place = self.places.get(known).copied().unwrap_or_else(|| place(&mut self.random, side));
             if !is_clean || vertices.insert(vertex) && places.insert(place) {
                 items.push([vertex, place]);
             }
         }
+        self.places.extend(items.iter().map(|item| item[1]));
         items
     }
 
@@ -252,9 +267,66 @@ fn cores_with_a_broken_block_of_changes_are_caught() {
     let pair = |faults: &[&str]| Lockstep::faulty("faulty_core_changes", CROWD, 85, faults);
     assert!(first_mismatch(pair(&[]), CROWD, 60).is_none(), "the sound core equals its model");
     for Fault { name, .. } in CHANGE_FAULTS {
-        let found = first_mismatch(pair(&[name]), CROWD, 150);
+        let found = first_mismatch(pair(&[name]), CROWD, 300);
         let (number, mismatch) = found.unwrap_or_else(|| panic!("{name} is not caught"));
         println!("{name}: caught in script {number}, at port {}", mismatch.port);
+    }
+}
+
+/// Number of clocks of these commands, until this many words of answers have been taken.
+fn clocks(model: &mut ClockModel, words: &[u32], answers: usize) -> usize {
+    let (mut rest, mut taken, mut clocks) = (words, 0, 0);
+    while !rest.is_empty() || taken < answers {
+        let outputs = model.outputs();
+        taken += if outputs.response_valid { 1 + usize::from(outputs.response_both) } else { 0 };
+        model.clock(Inputs {
+            reset: false,
+            command_valid: !rest.is_empty(),
+            command_data: rest.first().copied().unwrap_or(0),
+            response_ready: true,
+        });
+        if outputs.command_ready && !rest.is_empty() {
+            rest = &rest[1..];
+        }
+        clocks += 1;
+    }
+    clocks
+}
+
+/// Cycles of an `InsertAs` in a run that makes 8,000 points out of this many, in Hilbert order, dealt to 16 contexts.
+fn cycles_of_insert_as(mut model: ClockModel, first: usize) -> f64 {
+    let points = generate(Distribution::Uniform, 8_000, 16, 1).expect("a set of this size");
+    let word = |point: &[u32; 2]| point[0] | point[1] << 16;
+    let (standing, new) = points.split_at(first);
+    let mut insert = vec![Clear::default().word(), command_word(Opcode::Insert), first as u32];
+    insert.extend(standing.iter().map(word));
+    clocks(&mut model, &insert, 2 + 7);
+    let stored: Vec<incircle::Point> = new.iter().copied().map(incircle::Point::from).collect();
+    let order = incircle::order::hilbert(&stored);
+    let stretch = order.len() / 16;
+    let dealt: Vec<usize> = (0..16 * stretch).map(|item| order[item % 16 * stretch + item / 16] as usize).collect();
+    // The first questions bring the contexts to their stretches of the curve.
+    let mut ask = vec![command_word(Opcode::Locate), 16];
+    ask.extend(dealt[..16].iter().map(|&place| word(&new[place])));
+    clocks(&mut model, &ask, 2 + 4 * 16);
+    let mut run = vec![command_word(Opcode::InsertAs), dealt.len() as u32];
+    run.extend(dealt.iter().flat_map(|&place| [(first + place) as u32, word(&new[place])]));
+    clocks(&mut model, &run, 2 + 2 * dealt.len()) as f64 / dealt.len() as f64
+}
+
+#[test]
+fn insert_as_takes_fewer_than_17_cycles_an_item() {
+    let model = || ClockModel::new(FULL).unwrap_or_else(|error| panic!("{error}"));
+    for first in [6_000, 4_000] {
+        let core = cycles_of_insert_as(model().with_questions(), first);
+        let living = cycles_of_insert_as(model().with_runs(), first);
+        println!(
+            "from {first} points on: {core:.2} cycles an item, and {living:.2} with the model of the living engine"
+        );
+        assert!(
+            core < 17.0 && core < living + 1.5,
+            "{core:.2} cycles an item, where the living engine takes {living:.2}"
+        );
     }
 }
 
