@@ -161,7 +161,7 @@ impl Rig {
         let mut items = Vec::new();
         for _ in 0..self.random.below(most + 1) {
             let vertex = match self.random.below(16) {
-                0 => u64::from(self.random.bits(32)),
+                0 => self.random.bits(32),
                 1 => points + self.random.below(2),
                 2..=5 => self.random.below(points.min(20)),
                 _ => self.random.below(points),
