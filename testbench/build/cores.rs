@@ -4,7 +4,7 @@ use incircle_hdl::export;
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, FULL, LARGE, SMALL, TINY};
 
-use super::faults::{Fault, Piece, FAULTS, QUESTION_FAULTS};
+use super::faults::{Fault, Piece, CHANGE_FAULTS, FAULTS, QUESTION_FAULTS};
 
 const ONE_CONTEXT: Config = Config { contexts: 1, ..SMALL };
 const LONG_LIST: Config = Config { ring: 64, contexts: 8, ..SMALL };
@@ -14,6 +14,9 @@ const TWELVE_CONTEXTS: Config = Config { contexts: 12, ..SMALL };
 pub const DUAL_TINY: Config = Config { engines: 2, ..TINY };
 const QUAD_TINY: Config = Config { points: 16, engines: 4, ..TINY };
 const DUAL_OF_64: Config = Config { points: 64, ring: 9, engines: 2, ..TINY };
+
+/// A core in which eight contexts meet in a mesh of few records, with lists that overflow.
+const CROWD: Config = Config { points: 64, ring: 6, contexts: 8, ..TINY };
 
 /// The core whose text is rewritten for fast clocks, as the cores of `incircle-sim` are.
 pub const FAST_CLOCKS: &str = "core_fast_clocks";
@@ -28,6 +31,7 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("core_tiny", core(TINY)),
         ("core_tiny_questions", with_questions(TINY)),
         ("core_small_questions", with_questions(SMALL)),
+        ("core_crowd_questions", with_questions(CROWD)),
         ("core_small", core(SMALL)),
         (FAST_CLOCKS, core(SMALL)),
         ("core_small_ring9", core(ring9)),
@@ -42,6 +46,7 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("faulty_core_small", with_switches(&core(SMALL), FAULTS)),
         ("faulty_core_long_list", with_switches(&core(LONG_LIST), FAULTS)),
         ("faulty_core_questions", with_switches(&with_questions(TINY), QUESTION_FAULTS)),
+        ("faulty_core_changes", with_switches(&with_questions(CROWD), CHANGE_FAULTS)),
     ]
 }
 

@@ -27,12 +27,21 @@ pub struct CommandGate {
     pub taken: Signal<Out, TakenWord>,
     /// The next word may be a point.
     pub awaits_point: Signal<Out, Bit>,
+    /// In a core with changes: the last point still waits for its context.
+    pub point_waits: Vec<Signal<In, Bit>>,
     is_held: Signal<Local, Bit>,
     may_be_point: Signal<Local, Bit>,
     takes_command: Signal<Local, Bit>,
     takes_argument: Signal<Local, Bit>,
     takes_point: Signal<Local, Bit>,
     is_some: Signal<Local, Bit>,
+}
+
+impl CommandGate {
+    /// The gate of a core with changes.
+    pub fn with_changes() -> Self {
+        Self { point_waits: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for CommandGate {
@@ -45,6 +54,11 @@ impl Logic for CommandGate {
         self.takes_argument.next =
             (self.state.val() == CommandState::First) | (self.state.val() == CommandState::Count);
         self.takes_point.next = self.may_be_point.val() & (!self.came.val()) & (!self.is_held.val());
+        for i in 0..self.point_waits.len() {
+            if self.point_waits[i].val() {
+                self.takes_point.next = false;
+            }
+        }
         self.command.ready.next = self.takes_argument.val() | self.takes_command.val() | self.takes_point.val();
         self.is_some.next = self.command.data.val().any();
         self.taken.next.is_command = self.command.valid.val() & self.takes_command.val() & self.is_some.val();

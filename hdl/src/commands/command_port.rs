@@ -27,7 +27,7 @@ use super::clear_command::ClearCommand;
 use super::command_gate::CommandGate;
 use super::point_slot::PointSlot;
 use super::types::{Activity, AnswerProgress, Clearing, CommandState, Request, Tally, VertexCount, Word};
-use crate::engine::{Arrival, Deal, EngineState};
+use crate::engine::{Arrival, Deal, EngineState, VertexId};
 use crate::prelude::*;
 use incircle_protocol::{Opcode, PADDING, TRIANGLES_SHORT, TRIANGLES_TWELVE};
 
@@ -55,6 +55,10 @@ pub struct CommandPort {
     pub activity: Signal<Out, Activity>,
     /// The next word is a command: in a core that answers questions.
     pub awaits_command: Vec<Signal<Out, Bit>>,
+    /// In a core with changes: the last point still waits for its context; and a run has put a vertex into the mesh.
+    pub point_waits: Vec<Signal<In, Bit>>,
+    pub raises: Vec<Signal<In, Bit>>,
+    pub raised: Vec<Signal<In, VertexId>>,
     state: DFF<CommandState>,
     held: DFF<Request>,
     /// No point of the command is left; valid while points come.
@@ -85,7 +89,15 @@ const _: () = assert!(
 impl CommandPort {
     /// The port of a core that answers questions.
     pub fn with_questions() -> Self {
-        Self { awaits_command: vec![Signal::default()], ..Self::default() }
+        Self {
+            awaits_command: vec![Signal::default()],
+            point_waits: vec![Signal::default()],
+            raises: vec![Signal::default()],
+            raised: vec![Signal::default()],
+            gate: CommandGate::with_changes(),
+            slot: PointSlot::with_changes(),
+            ..Self::default()
+        }
     }
 }
 
@@ -120,6 +132,11 @@ impl Logic for CommandPort {
         self.activity.next.awaits_point = self.gate.awaits_point.val();
         for i in 0..self.awaits_command.len() {
             self.awaits_command[i].next = (self.state.q.val() == CommandState::Command) & (!self.sweeps.val());
+        }
+        for i in 0..self.point_waits.len() {
+            self.gate.point_waits[i].next = self.point_waits[i].val();
+            self.slot.raises[i].next = self.raises[i].val();
+            self.slot.raised[i].next = self.raised[i].val();
         }
         self.clear.reset.next = self.reset.val();
         self.clear.built.next = self.built.val();

@@ -26,6 +26,9 @@ pub struct PointSlot {
     /// The point that came with the last edge, unless it was refused.
     pub arrival: Signal<Out, Arrival>,
     pub tally: Signal<Out, Tally>,
+    /// In a core with changes: a run has put this vertex into the mesh, and later points have higher ids.
+    pub raises: Vec<Signal<In, Bit>>,
+    pub raised: Vec<Signal<In, VertexId>>,
     is_new: DFF<Bit>,
     last_id: DFF<VertexId>,
     last_point: DFF<Word>,
@@ -40,6 +43,13 @@ pub struct PointSlot {
     has_room: Signal<Local, Bit>,
     one_arrival: Signal<Local, VertexCount>,
     one: Signal<Local, Word>,
+}
+
+impl PointSlot {
+    /// The slot of a core with changes.
+    pub fn with_changes() -> Self {
+        Self { raises: vec![Signal::default()], raised: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for PointSlot {
@@ -65,6 +75,11 @@ impl Logic for PointSlot {
         self.last_point.d.next = self.taken.val().word;
         if self.stores.val() {
             self.arrivals.d.next = self.arrivals.q.val() + self.one_arrival.val();
+        }
+        for i in 0..self.raises.len() {
+            if self.raises[i].val() & (self.raised[i].val() >= self.arrivals.q.val()) {
+                self.arrivals.d.next = self.raised[i].val() + self.one_arrival.val();
+            }
         }
         if self.is_surplus.q.val() {
             self.refusals.d.next = self.refusals.q.val() + self.one.val();

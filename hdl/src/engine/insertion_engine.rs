@@ -17,8 +17,8 @@ use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Bundle, Clocks, Completion, Deal, EngineState, Events, Limits, Position, RecordRead, Verdict, VertexId,
-    Write,
+    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, Position,
+    RecordRead, Start, Verdict, VertexId, Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
@@ -59,6 +59,19 @@ pub struct InsertionEngine {
     pub question_place: Vec<Signal<In, Position>>,
     pub completed: Vec<Signal<Out, Completion>>,
     pub sides: Vec<Signal<Out, Sides>>,
+    /// An item of a run of changes begins: its context starts to walk (`launch`), to the place of `question_place`, and
+    /// the point may have to be stored. The mesh has been changed, and some point of an `Insert` is not finished; a run
+    /// of changes is under way; and the events that end items.
+    pub launches: Vec<Signal<In, Bit>>,
+    pub launch: Vec<Signal<In, Start>>,
+    pub launch_stores: Vec<Signal<In, Bit>>,
+    pub launch_arrival: Vec<Signal<In, Arrival>>,
+    pub launch_context: Vec<Signal<In, ContextId>>,
+    pub launch_vertex: Vec<Signal<In, VertexId>>,
+    pub has_changed: Vec<Signal<In, Bit>>,
+    pub is_pending: Vec<Signal<In, Bit>>,
+    pub change_runs: Vec<Signal<In, Bit>>,
+    pub changes: Vec<Signal<Out, ChangeEvents>>,
     insertions: Insertions,
     pipeline: VisitPipeline,
     solo: Solo,
@@ -86,6 +99,17 @@ impl InsertionEngine {
             question_place: vec![Signal::default()],
             completed: vec![Signal::default()],
             sides: vec![Signal::default()],
+            insertions: Insertions::with_changes(config),
+            launches: vec![Signal::default()],
+            launch: vec![Signal::default()],
+            launch_stores: vec![Signal::default()],
+            launch_arrival: vec![Signal::default()],
+            launch_context: vec![Signal::default()],
+            launch_vertex: vec![Signal::default()],
+            has_changed: vec![Signal::default()],
+            is_pending: vec![Signal::default()],
+            change_runs: vec![Signal::default()],
+            changes: vec![Signal::default()],
             ..Self::new(config)
         }
     }
@@ -173,6 +197,28 @@ impl Logic for InsertionEngine {
             }
             self.completed[i].next = self.pipeline.completion.val();
             self.sides[i].next = self.pipeline.sides[i].val();
+        }
+
+        // An item of a run of changes is an insertion whose vertex and point do not come from the vertex memory. The
+        // counters leave out its duplicate, because the vertex keeps no id.
+        for i in 0..self.launches.len() {
+            self.insertions.launches[i].next = self.launches[i].val();
+            self.insertions.launch[i].next = self.launch[i].val();
+            self.insertions.launch_context[i].next = self.launch_context[i].val();
+            self.insertions.launch_vertex[i].next = self.launch_vertex[i].val();
+            self.insertions.has_changed[i].next = self.has_changed[i].val();
+            self.insertions.is_pending[i].next = self.is_pending[i].val();
+            self.changes[i].next = self.insertions.changes[i].val();
+            if self.launches[i].val() {
+                self.pipeline.position.next = self.question_place[i].val();
+            }
+            if self.launch_stores[i].val() {
+                self.pipeline.arrival.next = self.launch_arrival[i].val();
+            }
+            if self.change_runs[i].val() {
+                self.events.next.duplicate = false;
+                self.events.next.solo_duplicate = false;
+            }
         }
     }
 }

@@ -3,10 +3,10 @@
 
 use super::attempt::Attempts;
 use super::commit::CommitPath;
-use super::dispatch::Dispatcher;
+use super::dispatch::{ChangeView, Dispatcher};
 use super::types::{
-    Clocks, CommitJob, Completion, Deal, Events, Fetched, Follow, Limits, LockClear, SeedProgress, SoloProgress,
-    SoloStart, Start, TriangleId, Upcoming, VertexId, Visit, VisitEvents, Write,
+    ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow, Limits, LockClear,
+    SeedProgress, SoloProgress, SoloStart, Start, TriangleId, Upcoming, VertexId, Visit, VisitEvents, Write,
 };
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -52,6 +52,16 @@ pub struct Insertions {
     pub stuck: Signal<Out, Bit>,
     /// The events of this edge, except those that only the rest of the engine knows.
     pub events: Signal<Out, Events>,
+    /// In a core with changes: an item of a run begins, whose context starts to walk; the mesh has been changed, and
+    /// some point of an `Insert` is not finished; and the events that end items.
+    pub launches: Vec<Signal<In, Bit>>,
+    pub launch: Vec<Signal<In, Start>>,
+    pub launch_context: Vec<Signal<In, ContextId>>,
+    pub launch_vertex: Vec<Signal<In, VertexId>>,
+    pub has_changed: Vec<Signal<In, Bit>>,
+    pub is_pending: Vec<Signal<In, Bit>>,
+    pub changes: Vec<Signal<Out, ChangeEvents>>,
+    view: Vec<ChangeView>,
     dispatcher: Dispatcher,
     attempts: Attempts,
     commits: CommitPath,
@@ -67,6 +77,23 @@ impl Insertions {
             attempts: Attempts::new(config),
             commits: CommitPath::new(config),
             ..Self::default()
+        }
+    }
+
+    /// The insertions of a core with changes.
+    pub fn with_changes(config: Config) -> Self {
+        Self {
+            dispatcher: Dispatcher::with_changes(config),
+            attempts: Attempts::with_changes(config),
+            launches: vec![Signal::default()],
+            launch: vec![Signal::default()],
+            launch_context: vec![Signal::default()],
+            launch_vertex: vec![Signal::default()],
+            has_changed: vec![Signal::default()],
+            is_pending: vec![Signal::default()],
+            changes: vec![Signal::default()],
+            view: vec![ChangeView::default()],
+            ..Self::new(config)
         }
     }
 }
@@ -142,5 +169,23 @@ impl Logic for Insertions {
         self.events.next.solo_duplicate = self.solo.val().ends & (!self.solo.val().inserts);
         self.events.next.is_issuing = false;
         self.events.next.is_writing = false;
+
+        for i in 0..self.launches.len() {
+            self.dispatcher.launches[i].next = self.launches[i].val();
+            self.dispatcher.launch[i].next = self.launch[i].val();
+            self.dispatcher.launch_context[i].next = self.launch_context[i].val();
+            self.dispatcher.launch_vertex[i].next = self.launch_vertex[i].val();
+            self.dispatcher.has_changed[i].next = self.has_changed[i].val();
+            self.dispatcher.is_pending[i].next = self.is_pending[i].val();
+            self.view[i].outcome.next = self.attempts.outcome.val();
+            self.view[i].commit.next = self.attempts.commit.val();
+            self.view[i].vertex.next = self.attempts.vertex[i].val();
+            self.view[i].may_ask.next = self.attempts.follow.val().may_ask;
+            self.view[i].committed.next = self.commits.committed.val();
+            self.view[i].solo.next = self.solo.val();
+            self.view[i].contexts.next = self.dispatcher.contexts.val();
+            self.view[i].start.next = self.dispatcher.own_start[i].val();
+            self.changes[i].next = self.view[i].events.val();
+        }
     }
 }

@@ -3,6 +3,7 @@
 //! 1. Item `i` of a run belongs to context `i mod k`, where `k` is the number of contexts that work, and has the number
 //!    `i` modulo 2^24.
 //! 2. A word comes only while the block holds no item (`holds`). The block then offers the item until it is taken.
+//! 3. An item of two words has its vertex in the first one, which the block keeps (`takes_vertex`).
 //!
 //! Latency: an item is on offer in the clock after its word, so a word can come every second clock.
 
@@ -23,6 +24,9 @@ pub struct ItemDealer {
     /// The word of an item comes at this edge.
     pub takes: Signal<In, Bit>,
     pub word: Signal<In, Word>,
+    /// The word is the vertex of an item, whose point follows; and the vertex of the item on offer, or of the last one.
+    pub takes_vertex: Signal<In, Bit>,
+    pub vertex: Signal<Out, Word>,
     pub holds: Signal<Out, Bit>,
     /// The item on offer, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
@@ -31,6 +35,7 @@ pub struct ItemDealer {
     held: DFF<Launch>,
     turn: DFF<ContextId>,
     number: DFF<ItemNumber>,
+    kept_vertex: DFF<Word>,
     item: Signal<Local, Item>,
     after_turn: Signal<Local, ContextId>,
     one_turn: Signal<Local, ContextId>,
@@ -40,7 +45,7 @@ pub struct ItemDealer {
 impl Logic for ItemDealer {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, is_held, held, turn, number);
+        dff_setup!(self, clock, is_held, held, turn, number, kept_vertex);
         self.one_turn.next = 1.into();
         self.one_number.next = 1.into();
         self.holds.next = self.is_held.q.val();
@@ -49,6 +54,11 @@ impl Logic for ItemDealer {
         self.dealt.next.item = self.held.q.val().item;
         self.item.next.number = self.number.q.val();
         self.item.next.place = self.word.val();
+        self.item.next.vertex = self.kept_vertex.q.val().get_bits::<15>(0);
+        self.vertex.next = self.kept_vertex.q.val();
+        if self.takes_vertex.val() {
+            self.kept_vertex.d.next = self.word.val();
+        }
         self.after_turn.next = self.turn.q.val() + self.one_turn.val();
         if self.taken.val() {
             self.is_held.d.next = false;

@@ -44,6 +44,8 @@ pub struct ItemQueues {
     pub launch: Signal<Out, Launch>,
     /// The first item in the line begins at this edge. The user sets it only while `waits` is 1.
     pub launches: Signal<In, Bit>,
+    /// No context has an item.
+    pub rests: Signal<Out, Bit>,
     items: BlockMemory<QUEUE_ADDRESS_BITS, ITEM_BITS>,
     counts: QueueCounts,
     beginners: Fifo<CONTEXT_BITS, LAUNCH_BITS>,
@@ -150,6 +152,7 @@ impl Logic for ItemQueues {
         self.first.bits.next = self.beginners.data.val();
         self.waits.next = self.beginners.valid.val();
         self.launch.next = self.first.value.val();
+        self.rests.next = self.idle.q.val() == (!self.none.val());
 
         self.wide_end.next = bit_cast::<24, 5>(self.ends.val().context);
         self.offer_bit.next = 0.into();

@@ -1,10 +1,14 @@
-//! A mesh that stands and answers: runs of questions, in all contexts side by side.
+//! A mesh that stands, answers and grows: runs of questions and of changes, in all contexts side by side.
 //!
 //! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
-//! of the insertion engine, which inserts nothing meanwhile. [`Questions`] draws its blocks.
+//! of the insertion engine, which inserts nothing meanwhile. Each `InsertAs` is an insertion of that engine.
+//! [`Questions`] and [`Changes`] draw their blocks.
 
+mod change_ends;
+mod changes;
 mod item_dealer;
 mod item_queues;
+mod late_points;
 mod named_vertices;
 mod part_beat;
 mod part_queue;
@@ -16,11 +20,16 @@ mod run_gate;
 mod run_port;
 mod standing_view;
 pub mod types;
+mod vertex_check;
 
+pub use change_ends::ChangeEnds;
+pub use changes::Changes;
 pub use item_queues::ItemQueues;
+pub use late_points::LatePoints;
 pub use part_queue::PartQueue;
 pub use question_step::QuestionStep;
 pub use questions::Questions;
 pub use run_gate::RunGate;
 pub use run_port::{RunPort, RunState};
 pub use standing_view::StandingView;
+pub use vertex_check::{CheckState, VertexCheck};

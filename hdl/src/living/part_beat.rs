@@ -1,6 +1,8 @@
 //! The words of a part of an answer, two at a time.
 //!
-//! 1. Beat 0 has outcome and number of the item, and the first vertex; beat 1 has the other two vertices. Beats 2 to 4,
+//! 1. Beat 0 has outcome and number of the item, and the first vertex. With the outcome `Full` (8), the vertex is any
+//!    word, and stands in `w0`.
+//! 2. Beat 1 has the other two vertices. Beats 2 to 4,
 //!    which only the parts of `Interpolate` have, each have a weight: its low word, and its high word, which is 0.
 //!
 //! Latency: none, the block is combinational.
@@ -25,11 +27,14 @@ pub struct PartBeat {
     second: Signal<Local, BeatNumber>,
     third: Signal<Local, BeatNumber>,
     fourth: Signal<Local, BeatNumber>,
+    full_outcome: Signal<Local, Bits<4>>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
-    incircle_protocol::OUTCOME_SHIFT == 24 && incircle_protocol::RunKind::Interpolate.part_words() == 10,
+    incircle_protocol::OUTCOME_SHIFT == 24
+        && incircle_protocol::RunKind::Interpolate.part_words() == 10
+        && incircle_protocol::Outcome::Full as u8 == 8,
     "the words of this block follow the protocol"
 );
 
@@ -41,6 +46,7 @@ impl Logic for PartBeat {
         self.second.next = 1.into();
         self.third.next = 2.into();
         self.fourth.next = 3.into();
+        self.full_outcome.next = 8.into();
         self.finding.next = self.part.val().finding;
         self.wide_outcome.next = bit_cast::<32, 4>(self.finding.val().outcome);
         self.shifted_outcome.next = self.wide_outcome.val() << self.outcome_shift.val();
@@ -50,6 +56,9 @@ impl Logic for PartBeat {
         if self.beat.val() == self.first.val() {
             self.low.next = self.shifted_outcome.val() | self.wide_number.val();
             self.high.next = bit_cast::<32, 15>(self.finding.val().v0);
+            if self.finding.val().outcome == self.full_outcome.val() {
+                self.high.next = self.finding.val().w0;
+            }
         }
         if self.beat.val() == self.second.val() {
             self.low.next = bit_cast::<32, 15>(self.finding.val().v1);

@@ -30,6 +30,9 @@ pub struct QuestionStep {
     /// The item ends, with this finding.
     pub ends: Signal<Out, Bit>,
     pub finding: Signal<Out, Finding>,
+    /// The corner at which the place lies, if it lies at one.
+    pub corner: Signal<Out, VertexId>,
+    met: Signal<Local, Finding>,
     named: NamedVertices,
     visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
@@ -93,7 +96,9 @@ impl Logic for QuestionStep {
 
         self.named.turned.next = self.turned.val();
         self.named.sides.next = self.sides.val();
-        self.finding.next = self.named.finding.val();
+        self.met.next = self.named.finding.val();
+        self.corner.next = self.met.val().v0;
+        self.finding.next = self.met.val();
         if self.is_search.val() {
             self.finding.next.outcome = 4.into();
             self.finding.next.v0 = self.hull_end.val();

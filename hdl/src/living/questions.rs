@@ -1,4 +1,5 @@
-//! Answers the questions of a run on a mesh that stands, in all contexts side by side.
+//! Does the runs on a mesh that stands, in all contexts side by side: answers questions, and begins and ends the items
+//! of changes, which the insertion engine carries out.
 //!
 //! ```text
 //! words -> RunPort -> ItemQueues -> walks begin --+--> visits, to the pipeline
@@ -12,10 +13,14 @@
 //! 2. A walk begins where the last walk of its context has ended, or at record 0 if there was none since the last
 //!    `clears`. No record goes away while the mesh stands.
 //! 3. Questions take no lock and write no record. The user begins a run only while no insertion is at work, so the mesh
-//!    does not change during a run.
+//!    does not change during a run of questions.
+//! 4. An item of a change begins with a start of its context in the insertion engine, which makes its visits. Its walk
+//!    begins at the last root of its context, or as rule 2 says. [`Changes`] has the rest.
+//! 5. A run ends when its answer has been taken. A run of changes also waits until all locks are released.
 //!
 //! Latency: none (combinational) from a completed visit to `push`.
 
+use super::changes::Changes;
 use super::item_queues::ItemQueues;
 use super::part_queue::PartQueue;
 use super::question_step::QuestionStep;
@@ -23,8 +28,8 @@ use super::run_port::RunPort;
 use super::types::{Item, ItemNumber, Launch, Part};
 use crate::commands::{AnswerSource, CommandSink};
 use crate::engine::types::{
-    context_bits, Bundle, Completion, ContextId, ContextSet, Position, Push, TriangleId, Visit, CONTEXT_BITS,
-    TRIANGLE_BITS,
+    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, Position, Push, Start, TriangleId,
+    VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::predicate::Sides;
@@ -52,8 +57,26 @@ pub struct Questions {
     pub push: Signal<Out, Push>,
     /// The place of the item that begins, and its context.
     pub position: Signal<Out, Position>,
-    /// A run is under way.
+    /// A run is under way; it asks questions, so that all visits are theirs; or it changes the mesh.
     pub is_active: Signal<Out, Bit>,
+    pub asks: Signal<Out, Bit>,
+    pub changes_mesh: Signal<Out, Bit>,
+    /// For changes, as the ports of [`Changes`] of these names.
+    pub capacity: Signal<In, VertexId>,
+    pub arrived: Signal<In, VertexId>,
+    pub arrival: Signal<In, Arrival>,
+    pub events: Signal<In, ChangeEvents>,
+    pub has_changed: Signal<Out, Bit>,
+    pub is_pending: Signal<Out, Bit>,
+    pub point_waits: Signal<Out, Bit>,
+    pub raises: Signal<Out, Bit>,
+    pub raised: Signal<Out, VertexId>,
+    /// The context of an item of a change starts to walk, to the place in `position`; its point has to be stored.
+    pub start: Signal<Out, Start>,
+    pub stored: Signal<Out, Arrival>,
+    changes: Changes,
+    is_question: Signal<Local, Bit>,
+    may_launch: Signal<Local, Bit>,
     port: RunPort,
     queues: ItemQueues,
     step: QuestionStep,
@@ -70,7 +93,8 @@ pub struct Questions {
     bundle: Signal<Local, Bundle>,
     number: Signal<Local, ItemNumber>,
     part: Signal<Local, Part>,
-    start: Signal<Local, TriangleId>,
+    start_record: Signal<Local, TriangleId>,
+    arrives: Signal<Local, Bit>,
     wide_visit: Signal<Local, ContextSet>,
     wide_launch: Signal<Local, ContextSet>,
     of_launch: Signal<Local, ContextSet>,
@@ -84,6 +108,7 @@ impl Questions {
         let bits = context_bits(config);
         Self {
             queues: ItemQueues::new(config),
+            changes: Changes::new(config),
             hints: LutMemory::new(bits, TRIANGLE_BITS),
             numbers: LutMemory::new(bits, 24),
             ..Self::default()
@@ -95,7 +120,7 @@ impl Logic for Questions {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, hinted);
-        clock!(self, clock, port, queues, parts, hints, numbers);
+        clock!(self, clock, port, queues, parts, hints, numbers, changes);
         self.one_bit.next = 1.into();
         self.port.reset.next = self.reset.val();
         self.port.begins.next = self.begins.val();
@@ -104,41 +129,59 @@ impl Logic for Questions {
         self.port.contexts.next = self.contexts.val();
         self.port.has_mesh.next = self.has_mesh.val();
         CommandSink::link(&mut self.command, &mut self.port.command);
-        self.port.taken.next = self.queues.taken.val();
-        self.port.is_over.next = self.parts.is_over.val();
+        self.is_question.next = self.port.is_active.val() & (!self.port.is_change.val());
+        self.port.taken.next = self.changes.taken.val();
+        self.port.is_over.next = self.parts.is_over.val() & (self.is_question.val() | self.events.val().all_rest);
         self.is_active.next = self.port.is_active.val();
+        self.asks.next = self.is_question.val();
+        self.changes_mesh.next = self.changes.runs.val();
 
         self.step.completion.next = self.completion.val();
         self.step.sides.next = self.sides.val();
         self.visit.next = self.completion.val().visit;
         self.queues.reset.next = self.reset.val();
-        self.queues.dealt.next = self.port.dealt.val();
-        self.queues.ends.next.valid = self.step.ends.val();
-        self.queues.ends.next.context = self.visit.val().context;
+        self.queues.dealt.next = self.changes.queued.val();
+        self.queues.ends.next = self.changes.ends.val();
+        if self.is_question.val() {
+            self.queues.ends.next.valid = self.step.ends.val();
+            self.queues.ends.next.context = self.visit.val().context;
+        }
 
         // The queue of the pipeline takes one visit a clock, so a walk begins only if no other visit follows.
         self.launch.next = self.queues.launch.val();
         self.item.next = self.launch.val().item;
-        self.launches.next = self.queues.waits.val() & self.parts.has_room.val() & (!self.step.asks.val());
+        self.may_launch.next = self.events.val().may_launch;
+        if self.is_question.val() {
+            self.may_launch.next = !self.step.asks.val();
+        }
+        self.launches.next = self.queues.waits.val() & self.parts.has_room.val() & self.may_launch.val();
         self.queues.launches.next = self.launches.val();
         self.hints.read_address.next = self.launch.val().context;
         self.wide_launch.next = bit_cast::<24, 5>(self.launch.val().context);
         self.of_launch.next = self.hinted.q.val() >> self.wide_launch.val();
-        self.start.next = 0.into();
+        self.start_record.next = 0.into();
         if self.of_launch.val().get_bit(0) {
-            self.start.next = self.hints.read_data.val();
+            self.start_record.next = self.hints.read_data.val();
         }
-        self.push.next.valid = self.step.asks.val() | self.launches.val();
+        self.push.next.valid = self.is_question.val() & (self.step.asks.val() | self.launches.val());
         self.bundle.next = self.step.bundle.val();
         if !self.step.asks.val() {
             self.bundle.next.context = self.launch.val().context;
             self.bundle.next.entry = 0.into();
-            self.bundle.next.record = self.start.val();
+            self.bundle.next.record = self.start_record.val();
         }
         self.push.next.bundle = self.bundle.val();
         self.position.next.valid = self.launches.val();
         self.position.next.context = self.launch.val().context;
         self.position.next.point = self.item.val().place;
+        self.start.next.valid = self.launches.val() & (!self.is_question.val());
+        self.start.next.context = self.launch.val().context;
+        self.start.next.record = self.start_record.val();
+        self.start.next.takes = true;
+        self.start.next.id = self.item.val().vertex;
+        self.stored.next.came = self.launches.val() & self.changes.runs.val();
+        self.stored.next.id = self.item.val().vertex;
+        self.stored.next.point = self.item.val().place;
         self.numbers.write_address.next = self.launch.val().context;
         self.numbers.write_data.next = self.item.val().number;
         self.numbers.write_enable.next = self.launches.val();
@@ -149,14 +192,18 @@ impl Logic for Questions {
         self.number.next = self.numbers.read_data.val();
         self.part.next.number = self.number.val();
         self.part.next.finding = self.step.finding.val();
-        self.parts.came.next.valid = self.step.ends.val();
-        self.parts.came.next.part = self.part.val();
+        self.parts.came.next = self.changes.came.val();
+        if self.is_question.val() {
+            self.parts.came.next.valid = self.step.ends.val();
+            self.parts.came.next.part = self.part.val();
+        }
         self.hints.write_address.next = self.visit.val().context;
         self.hints.write_data.next = self.visit.val().record;
-        self.hints.write_enable.next = self.step.arrives.val();
+        self.arrives.next = self.step.arrives.val() | (self.events.val().is_root & self.changes.has_changed.val());
+        self.hints.write_enable.next = self.arrives.val();
         self.wide_visit.next = bit_cast::<24, 5>(self.visit.val().context);
         self.new_hint.next = 0.into();
-        if self.step.arrives.val() {
+        if self.arrives.val() {
             self.new_hint.next = self.one_bit.val() << self.wide_visit.val();
         }
         self.hinted.d.next = self.hinted.q.val() | self.new_hint.val();
@@ -166,7 +213,32 @@ impl Logic for Questions {
 
         self.parts.reset.next = self.reset.val();
         self.parts.head.next = self.port.head.val();
-        self.parts.begins.next = self.launches.val();
+        self.parts.begins.next = (self.launches.val() & self.port.is_active.val()) | self.changes.is_noted.val();
+
+        self.changes.reset.next = self.reset.val();
+        self.changes.clears.next = self.clears.val();
+        self.changes.capacity.next = self.capacity.val();
+        self.changes.arrived.next = self.arrived.val();
+        self.changes.contexts.next = self.contexts.val();
+        self.changes.arrival.next = self.arrival.val();
+        self.changes.is_active.next = self.port.is_active.val();
+        self.changes.is_change.next = self.port.is_change.val();
+        self.changes.dealt.next = self.port.dealt.val();
+        self.changes.vertex.next = self.port.vertex.val();
+        self.changes.accepted.next = self.queues.taken.val();
+        self.changes.queues_rest.next = self.queues.rests.val();
+        self.changes.events.next = self.events.val();
+        self.changes.context_id.next = self.visit.val().context;
+        self.changes.number.next = self.numbers.read_data.val();
+        self.changes.corner.next = self.step.corner.val();
+        self.changes.launches.next = self.launches.val() & (!self.is_question.val());
+        self.changes.launch.next = self.launch.val();
+        self.changes.has_room.next = self.parts.has_room.val();
+        self.has_changed.next = self.changes.has_changed.val();
+        self.is_pending.next = self.changes.is_pending.val();
+        self.point_waits.next = self.changes.point_waits.val();
+        self.raises.next = self.changes.raises.val();
+        self.raised.next = self.changes.raised.val();
         AnswerSource::link(&mut self.response, &mut self.parts.response);
     }
 }

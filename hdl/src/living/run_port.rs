@@ -5,7 +5,8 @@
 //!    are taken, and then its answer is the status alone.
 //! 3. The head of an answer goes out when the number of items is known, or when the words of a refused run are over.
 //!    The run ends when its answer has been taken.
-//! 4. `command_ready` depends on registers only and does not wait for `command_valid`.
+//! 4. An item of an `InsertAs` has two words, its vertex and its point; all others have one.
+//! 5. `command_ready` depends on registers only and does not wait for `command_valid`.
 //!
 //! Latency: 2 clocks from the number of items to `head`. An item is dealt in the clock after it was taken, so an item
 //! can be taken every second clock.
@@ -30,7 +31,7 @@ use crate::commands::types::Word;
 use crate::commands::CommandSink;
 use crate::engine::types::ContextId;
 use crate::prelude::*;
-use incircle_protocol::Status;
+use incircle_protocol::{Opcode, Status};
 
 /// The meaning of the next word, or the event that the port awaits.
 #[derive(Clone, Copy, Debug, PartialEq, LogicState)]
@@ -66,6 +67,9 @@ pub struct RunPort {
     /// The item on offer to the contexts, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
     pub taken: Signal<In, Bit>,
+    /// The run under way is an `InsertAs`; the vertex of the item on offer.
+    pub is_change: Signal<Out, Bit>,
+    pub vertex: Signal<Out, Word>,
     pub head: Signal<Out, RunHead>,
     /// The last word of the answer has been taken; from the clock after `head`.
     pub is_over: Signal<In, Bit>,
@@ -80,6 +84,10 @@ pub struct RunPort {
     some_are_left: DFF<Bit>,
     status: DFF<Bits<3>>,
     answers: DFF<Bit>,
+    /// The first word of an item of two has come.
+    vertex_came: DFF<Bit>,
+    is_vertex: Signal<Local, Bit>,
+    change_code: Signal<Local, Bits<8>>,
     starts: Signal<Local, Bit>,
     awaits_item: Signal<Local, Bit>,
     passes_item: Signal<Local, Bit>,
@@ -89,15 +97,20 @@ pub struct RunPort {
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
-const _: () =
-    assert!(Status::BadRange as u8 == 2 && Status::NoMesh as u8 == 7, "the numbers of this block follow the protocol");
+const _: () = assert!(
+    Status::BadRange as u8 == 2 && Status::NoMesh as u8 == 7 && Opcode::InsertAs as u8 == 11,
+    "the numbers of this block follow the protocol"
+);
 
 impl Logic for RunPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, code, count, left, some_are_left, status, answers);
+        dff_setup!(self, clock, state, code, count, left, some_are_left, status, answers, vertex_came);
         clock!(self, clock, dealer);
         self.one.next = 1.into();
+        self.change_code.next = 11.into();
+        self.is_change.next = self.code.q.val() == self.change_code.val();
+        self.is_vertex.next = (self.code.q.val() == self.change_code.val()) & (!self.vertex_came.q.val());
         self.is_active.next = self.state.q.val() != RunState::Idle;
         self.starts.next = self.begins.val() & (self.state.q.val() == RunState::Idle);
         self.awaits_item.next =
@@ -108,13 +121,18 @@ impl Logic for RunPort {
         self.takes_word.next = self.command.valid.val() & (self.awaits_item.val() | self.passes_item.val());
         self.is_last.next = self.left.q.val() == self.one.val();
         if self.takes_word.val() {
+            self.vertex_came.d.next = self.is_vertex.val();
+        }
+        if self.takes_word.val() & (!self.is_vertex.val()) {
             self.left.d.next = self.left.q.val() - self.one.val();
             self.some_are_left.d.next = !self.is_last.val();
         }
         self.dealer.reset.next = self.reset.val();
         self.dealer.starts.next = self.starts.val();
         self.dealer.contexts.next = self.contexts.val();
-        self.dealer.takes.next = self.awaits_item.val() & self.command.valid.val();
+        self.dealer.takes.next = self.awaits_item.val() & self.command.valid.val() & (!self.is_vertex.val());
+        self.dealer.takes_vertex.next = self.takes_word.val() & self.is_vertex.val();
+        self.vertex.next = self.dealer.vertex.val();
         self.dealer.word.next = self.command.data.val();
         self.dealer.taken.next = self.taken.val();
         self.dealt.next = self.dealer.dealt.val();
@@ -129,6 +147,7 @@ impl Logic for RunPort {
         self.answers.d.next = false;
         match self.state.q.val() {
             RunState::Idle => {
+                self.vertex_came.d.next = false;
                 if self.starts.val() {
                     self.code.d.next = self.opcode.val();
                     self.state.d.next = RunState::Count;

@@ -1,4 +1,4 @@
-//! Signals between the blocks that answer questions.
+//! Signals between the blocks of runs.
 
 use crate::engine::types::{ContextId, VertexId, CONTEXT_BITS};
 use crate::predicate::Point;
@@ -20,10 +20,11 @@ pub const QUEUE_COUNT_BITS: usize = DEPTH_BITS + 1;
 pub const PART_ADDRESS_BITS: usize = 5;
 
 crate::packed! {
-    /// An item of a run.
+    /// An item of a run: its place, and for an `InsertAs` its vertex.
     pub struct Item {
         pub number: Bits<24>,
         pub place: Point,
+        pub vertex: VertexId,
     }
 
     /// An item for a context.
@@ -46,8 +47,15 @@ crate::packed! {
         pub context: ContextId,
     }
 
-    /// The outcome of a question and the vertices that it names, each with its weight. Vertices that it does not name
-    /// are 0, and so are their weights and all weights outside the hull.
+    /// A vertex that is in the mesh, and the number of its item, whose part is due.
+    pub struct DoneItem {
+        pub number: Bits<24>,
+        pub vertex: VertexId,
+    }
+
+    /// The outcome of an item and the vertices that it names, each with its weight. Vertices that it does not name
+    /// are 0, and so are their weights and all weights outside the hull. With the outcome `Full`, the vertex of the item
+    /// stands in `w0`, because it can be any word.
     pub struct Finding {
         pub outcome: Bits<4>,
         pub v0: VertexId,
@@ -102,5 +110,7 @@ crate::packed! {
 pub const ITEM_BITS: usize = Item::BITS;
 /// Number of bits of a [`Launch`].
 pub const LAUNCH_BITS: usize = Launch::BITS;
+/// Number of bits of a [`DoneItem`].
+pub const DONE_BITS: usize = DoneItem::BITS;
 /// Number of bits of a [`Part`].
 pub const PART_BITS: usize = Part::BITS;

@@ -11,7 +11,10 @@
 //! ```
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
-use crate::engine::{Bundle, Completion, Counters, InsertionEngine, Latencies, Position, Write};
+use crate::engine::{
+    Arrival, Bundle, ChangeEvents, Completion, ContextId, Counters, InsertionEngine, Latencies, Position, Start,
+    VertexId, Write,
+};
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
 use crate::living::StandingView;
@@ -37,6 +40,24 @@ pub struct Core {
     pub completed: Vec<Signal<Out, Completion>>,
     pub sides: Vec<Signal<Out, Sides>>,
     pub standing: Vec<Signal<Out, Standing>>,
+    /// For runs of changes: as the ports of the engine of these names; the point of an `Insert` that comes, the number
+    /// of ids in use, and the ports of [`CommandPort`] for them; the capacity.
+    pub launches: Vec<Signal<In, Bit>>,
+    pub launch: Vec<Signal<In, Start>>,
+    pub launch_stores: Vec<Signal<In, Bit>>,
+    pub launch_arrival: Vec<Signal<In, Arrival>>,
+    pub launch_context: Vec<Signal<In, ContextId>>,
+    pub launch_vertex: Vec<Signal<In, VertexId>>,
+    pub has_changed: Vec<Signal<In, Bit>>,
+    pub is_pending: Vec<Signal<In, Bit>>,
+    pub change_runs: Vec<Signal<In, Bit>>,
+    pub changes: Vec<Signal<Out, ChangeEvents>>,
+    pub arrival: Vec<Signal<Out, Arrival>>,
+    pub arrived: Vec<Signal<Out, VertexId>>,
+    pub most: Vec<Signal<Out, VertexId>>,
+    pub point_waits: Vec<Signal<In, Bit>>,
+    pub raises: Vec<Signal<In, Bit>>,
+    pub raised: Vec<Signal<In, VertexId>>,
     command_port: CommandPort,
     answer_head: AnswerHead,
     answer_words: AnswerWords,
@@ -104,6 +125,22 @@ impl Core {
             completed: vec![Signal::default()],
             sides: vec![Signal::default()],
             standing: vec![Signal::default()],
+            launches: vec![Signal::default()],
+            launch: vec![Signal::default()],
+            launch_stores: vec![Signal::default()],
+            launch_arrival: vec![Signal::default()],
+            launch_context: vec![Signal::default()],
+            launch_vertex: vec![Signal::default()],
+            has_changed: vec![Signal::default()],
+            is_pending: vec![Signal::default()],
+            change_runs: vec![Signal::default()],
+            changes: vec![Signal::default()],
+            arrival: vec![Signal::default()],
+            arrived: vec![Signal::default()],
+            most: vec![Signal::default()],
+            point_waits: vec![Signal::default()],
+            raises: vec![Signal::default()],
+            raised: vec![Signal::default()],
             view: vec![StandingView::default()],
             ..Self::new(config)?
         })
@@ -200,6 +237,22 @@ impl Logic for Core {
             self.view[i].state.next = self.engine.state.val();
             self.view[i].engine.next = self.engine_number.val();
             self.standing[i].next = self.view[i].standing.val();
+            self.engine.launches[i].next = self.launches[i].val();
+            self.engine.launch[i].next = self.launch[i].val();
+            self.engine.launch_stores[i].next = self.launch_stores[i].val();
+            self.engine.launch_arrival[i].next = self.launch_arrival[i].val();
+            self.engine.launch_context[i].next = self.launch_context[i].val();
+            self.engine.launch_vertex[i].next = self.launch_vertex[i].val();
+            self.engine.has_changed[i].next = self.has_changed[i].val();
+            self.engine.is_pending[i].next = self.is_pending[i].val();
+            self.engine.change_runs[i].next = self.change_runs[i].val();
+            self.changes[i].next = self.engine.changes[i].val();
+            self.arrival[i].next = self.command_port.arrival.val();
+            self.arrived[i].next = self.command_port.tally.val().arrived;
+            self.most[i].next = self.capacity.val();
+            self.command_port.point_waits[i].next = self.point_waits[i].val();
+            self.command_port.raises[i].next = self.raises[i].val();
+            self.command_port.raised[i].next = self.raised[i].val();
         }
     }
 }

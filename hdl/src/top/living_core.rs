@@ -1,4 +1,4 @@
-//! The core with questions: as [`Core`], and it also answers runs of `Locate` and `Interpolate`.
+//! The core of a mesh that stands: as [`Core`], and it also does runs of `Locate`, `Interpolate` and `InsertAs`.
 //!
 //! ```text
 //! commands -> RunGate --> Core ------- completed visits --+
@@ -80,9 +80,25 @@ impl Logic for LivingCore {
 
         self.completion.next = self.core.completed[0].val();
         self.questions.completion.next = self.completion.val();
-        self.questions.completion.next.done = self.completion.val().done & self.questions.is_active.val();
+        self.questions.completion.next.done = self.completion.val().done & self.questions.asks.val();
         self.questions.sides.next = self.core.sides[0].val();
-        self.core.question_runs[0].next = self.questions.is_active.val();
+        self.core.question_runs[0].next = self.questions.asks.val();
+        self.questions.capacity.next = self.core.most[0].val();
+        self.questions.arrived.next = self.core.arrived[0].val();
+        self.questions.arrival.next = self.core.arrival[0].val();
+        self.questions.events.next = self.core.changes[0].val();
+        self.core.change_runs[0].next = self.questions.changes_mesh.val();
+        self.core.has_changed[0].next = self.questions.has_changed.val();
+        self.core.is_pending[0].next = self.questions.is_pending.val();
+        self.core.point_waits[0].next = self.questions.point_waits.val();
+        self.core.raises[0].next = self.questions.raises.val();
+        self.core.raised[0].next = self.questions.raised.val();
+        self.core.launches[0].next = self.questions.start.val().valid;
+        self.core.launch[0].next = self.questions.start.val();
+        self.core.launch_context[0].next = self.questions.start.val().context;
+        self.core.launch_vertex[0].next = self.questions.start.val().id;
+        self.core.launch_stores[0].next = self.questions.stored.val().came;
+        self.core.launch_arrival[0].next = self.questions.stored.val();
         self.core.question_asks[0].next = self.questions.push.val().valid;
         self.core.question[0].next = self.questions.push.val().bundle;
         self.core.question_place[0].next = self.questions.position.val();

@@ -39,8 +39,8 @@ use counters::Latencies;
 use incircle_protocol::{Config, ConfigError};
 use living::LivingEngine;
 use memory::Memory;
-use pipeline::Pipeline;
-use questions::Questions;
+use pipeline::{Bundle, Pipeline};
+use questions::{Launch, Questions};
 use release::Release;
 use ring::RingReader;
 use wires::Registers;
@@ -114,13 +114,18 @@ impl ClockModel {
     pub fn outputs(&self) -> Outputs {
         let now = &self.registers;
         self.with_run_outputs(Outputs {
-            command_ready: now.command.is_ready(now, self.sweeps()),
+            command_ready: now.command.is_ready(now, self.sweeps(), self.point_waits()),
             response_valid: now.responder.valid,
             response_data: u64::from(now.responder.offered.low) | u64::from(now.responder.offered.high) << 32,
             response_both: now.responder.offered.both,
             response_last: now.responder.offered.last,
             write: now.write,
         })
+    }
+
+    /// Whether the last point of an `Insert` still waits for its context.
+    fn point_waits(&self) -> bool {
+        self.questions.as_ref().is_some_and(Questions::point_waits)
     }
 
     /// Whether memories are being cleared.
@@ -163,24 +168,28 @@ impl ClockModel {
             if let Some(living) = &mut self.living {
                 living.reset();
             }
-            self.questions = self.questions.as_ref().map(|_| Questions::new(self.config.contexts));
+            self.questions = self.questions.as_ref().map(|_| Questions::new(self.config));
             self.release.reset();
             self.pipeline.reset();
             self.ring.reset();
             self.latencies.reset();
             return;
         }
-        let inputs = self.clock_questions(inputs);
+        let (inputs, run_signals) = self.question_signals(inputs);
         let (inputs, living_write) = self.clock_living(inputs);
         let was = self.registers;
         let wires = self.wires(inputs);
+        let raised = run_signals.and_then(|signals| self.clock_questions(&signals, &wires));
         let now = &mut self.registers;
         now.command.clock(&was, &wires, self.config);
+        if let Some(vertex) = raised {
+            now.command.raise(vertex);
+        }
         now.responder.clock(&was, &wires, &self.latencies, self.config);
         now.contexts.clock(&was, &wires, self.config.contexts, self.defect);
         now.seeder.clock(&was, &wires);
         now.solo.clock(&was, &wires, &self.tables, &self.memory);
-        now.finished_points.clock(&was);
+        now.finished_points.clock(&was, &wires);
         now.watchdog.clock(&was, &wires, self.config);
         now.counters.clock(&was, &wires, &self.pipeline);
         now.counted = was.counters;
@@ -188,6 +197,9 @@ impl ClockModel {
         now.noted = was.contexts;
         now.push =
             wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
+        if let Some(Launch { context, record, .. }) = wires.launch {
+            now.push = Some(Bundle::look(context, record));
+        }
         self.latencies.clock(&was, &wires);
         self.pipeline.clock(&was, &wires, &mut self.memory, self.defect);
         now.starter.clock(&was, &wires, &self.tables, &mut self.memory, self.defect);

@@ -1,9 +1,11 @@
-//! The blocks that answer questions on a mesh that stands.
+//! The blocks of runs on a mesh that stands.
 
 use incircle_protocol::{Config, FULL, TINY};
 
 use crate::exported::block;
-use incircle_hdl::living::{ItemQueues, PartQueue, QuestionStep, Questions, RunGate, RunPort, StandingView};
+use incircle_hdl::living::{
+    ChangeEnds, ItemQueues, LatePoints, PartQueue, QuestionStep, Questions, RunGate, RunPort, StandingView, VertexCheck,
+};
 
 /// Name of the root module and Verilog of each block.
 pub(crate) fn blocks() -> Vec<(String, String)> {
@@ -16,6 +18,9 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(RunPort::default(), "living_run_port"),
         block(RunGate::default(), "living_run_gate"),
         block(StandingView::default(), "living_standing_view"),
+        block(ChangeEnds::new(TINY), "living_change_ends"),
+        block(LatePoints::default(), "living_late_points"),
+        block(VertexCheck::new(TINY), "living_vertex_check"),
         block(Questions::new(TINY), "living_questions_2"),
         block(Questions::new(FULL), "living_questions_16"),
     ]

@@ -195,8 +195,8 @@ pub const QUESTION_FAULTS: &[Fault] = &[
         name: "gate_passes_interpolate_on",
         pieces: &[piece(
             "begins = @;",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code))",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & (code == locate_code)",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == insert_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == insert_code))",
         )],
     },
     Fault {
@@ -241,5 +241,72 @@ pub const QUESTION_FAULTS: &[Fault] = &[
             "(~head_is_due$q) & (~some_are_left$q) & (~valid$q)",
             "(~head_is_due$q) & (~some_are_left$q)",
         )],
+    },
+];
+
+/// Faults of the blocks that change a mesh that stands. The place of a fault in this list is its bit of the port
+/// `faults`.
+pub const CHANGE_FAULTS: &[Fault] = &[
+    Fault { name: "high_vertex_is_not_refused", pieces: &[piece("is_high = @;", "vertex >= wide_capacity", "1'b0")] },
+    Fault { name: "unknown_bits_are_trusted", pieces: &[piece("is_unknown = @;", "asked >= known$q", "1'b0")] },
+    Fault { name: "vertex_in_use_is_not_refused", pieces: &[piece("else if (@) begin", "|in_use$read_data", "1'b0")] },
+    Fault {
+        name: "duplicate_stays_in_use",
+        pieces: &[piece(
+            "unmarks = @;",
+            "events[(64'h1)+:(1)] | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))",
+            "1'b0",
+        )],
+    },
+    Fault { name: "point_is_not_stored", pieces: &[piece("if (@) begin", "launch_stores$0", "1'b0")] },
+    Fault {
+        name: "ids_are_not_raised",
+        pieces: &[piece("if (@) begin", "raises$0 & (raised$0 >= arrivals$q)", "1'b0")],
+    },
+    Fault { name: "contexts_take_points_after_a_change", pieces: &[piece("if (@) begin", "only_retries$0", "1'b0")] },
+    Fault { name: "points_do_not_wait", pieces: &[piece("if (@) begin", "point_waits$0", "1'b0")] },
+    Fault { name: "duplicates_of_runs_are_counted", pieces: &[piece("if (@) begin", "change_runs$0", "1'b0")] },
+    // M11, in three parts: locks, parts and points.
+    Fault {
+        name: "run_ends_with_locks",
+        pieces: &[piece("port$is_over = @;", "parts$is_over & (is_question | events[(64'h3f)+:(1)])", "parts$is_over")],
+    },
+    Fault {
+        name: "insert_ends_with_points_at_work",
+        pieces: &[piece(
+            "is_pending = @;",
+            "(~is_active) & (arrival[(64'h0)+:(1)] | late$holds | (~queues_rest))",
+            "1'b0",
+        )],
+    },
+    Fault {
+        name: "number_of_the_item_handed_over_is_lost",
+        pieces: &[piece("handed$write_enable = @;", "events[(64'h0)+:(1)]", "1'b0")],
+    },
+    Fault { name: "item_begins_beside_a_visit", pieces: &[piece("events[(64'h3e)+:(1)] = @ &", "(~may_ask)", "1'b1")] },
+    Fault {
+        name: "item_begins_beside_a_start",
+        pieces: &[piece("& @ & (~contexts[(64'h90)", "(~start[(64'h0)+:(1)])", "1'b1")],
+    },
+    // M13.
+    Fault {
+        name: "item_begins_beside_a_solo_insertion",
+        pieces: &[piece("& @;", "(~contexts[(64'h90)+:(1)]) & (~solo[(64'h0)+:(1)])", "1'b1")],
+    },
+    Fault {
+        name: "root_is_no_hint",
+        pieces: &[piece("arrives = @;", "step$arrives | (events[(64'h2)+:(1)] & changes$has_changed)", "step$arrives")],
+    },
+    Fault {
+        name: "refusal_takes_no_place",
+        pieces: &[piece(
+            "parts$begins = @;",
+            "(launches & port$is_active) | changes$is_noted",
+            "launches & port$is_active",
+        )],
+    },
+    Fault {
+        name: "part_of_a_commit_goes_lost",
+        pieces: &[piece("done$pop = @;", "done$valid & (~is_early)", "done$valid")],
     },
 ];

@@ -6,7 +6,7 @@ mod recording;
 mod report;
 mod stream;
 
-pub use faults::{Fault, Piece, FAULTS, QUESTION_FAULTS};
+pub use faults::{Fault, Piece, CHANGE_FAULTS, FAULTS, QUESTION_FAULTS};
 pub use recording::KEPT;
 pub use report::Mismatch;
 pub use stream::{Job, Stalls};
@@ -93,13 +93,14 @@ impl Lockstep {
     }
 
     /// Makes the pair as [`Lockstep::new`] does, for a core with switches, and turns
-    /// on the switches of these [`FAULTS`], or of these [`QUESTION_FAULTS`] for a core that answers questions.
+    /// on the switches of these [`FAULTS`], or of these [`QUESTION_FAULTS`] or [`CHANGE_FAULTS`] for a core with runs.
     ///
     /// # Panics
     /// Panics as [`Lockstep::new`] does, and if there is no fault of such a name.
     pub fn faulty(name: &str, config: Config, seed: u32, faults: &[&str]) -> Self {
         let place_in = |list: &[Fault], name: &str| list.iter().position(|fault| fault.name == name);
-        let place = |name: &&str| place_in(FAULTS, name).or_else(|| place_in(QUESTION_FAULTS, name));
+        let lists = [FAULTS, QUESTION_FAULTS, CHANGE_FAULTS];
+        let place = |name: &&str| lists.into_iter().find_map(|list| place_in(list, name));
         let switch = |name| 1 << place(name).unwrap_or_else(|| panic!("no fault {name:?}"));
         Self::from_state(name, config, Some(seed), faults.iter().map(switch).sum())
     }

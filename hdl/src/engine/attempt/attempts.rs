@@ -37,7 +37,7 @@ use super::next_visits::NextVisits;
 use super::visit_case::VisitCase;
 use crate::engine::types::{
     Attempt, Clocks, CommitRequest, Completion, ContextId, ContextSet, ContextState, EntryWrite, Follow, InnerWrite,
-    LockWrite, Outcome, ReleaseRequest, RingCount, Start, Turned, Upcoming, Verdict, Visit, VisitEvents,
+    LockWrite, Outcome, ReleaseRequest, RingCount, Start, Turned, Upcoming, Verdict, VertexId, Visit, VisitEvents,
 };
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -77,6 +77,8 @@ pub struct Attempts {
     pub releases: Signal<Out, ReleaseRequest>,
     /// The events of completed visits, for the counters.
     pub events: Signal<Out, VisitEvents>,
+    /// In a core with changes: the vertex that the context of the completed visit inserts.
+    pub vertex: Vec<Signal<Out, VertexId>>,
     store: AttemptStore,
     points: AttemptPoints,
     meaning: VisitCase,
@@ -98,6 +100,11 @@ pub struct Attempts {
 impl Attempts {
     pub fn new(config: Config) -> Self {
         Self { store: AttemptStore::new(config), points: AttemptPoints::new(config), ..Self::default() }
+    }
+
+    /// The attempts of a core with changes.
+    pub fn with_changes(config: Config) -> Self {
+        Self { vertex: vec![Signal::default()], ..Self::new(config) }
     }
 }
 
@@ -170,6 +177,9 @@ impl Logic for Attempts {
         self.lock.next = self.lists.lock.val();
         self.commit.next = self.lists.commit.val();
         self.releases.next = self.lists.releases.val();
+        for i in 0..self.vertex.len() {
+            self.vertex[i].next = self.points.vertex.val();
+        }
 
         // A cavity with `n` boundary edges has `n - 2` records, as the polygon has no vertex inside.
         self.events.next.walk_visit = self.meaning.found.val().is_walk;

@@ -56,6 +56,15 @@ pub struct Dispatcher {
     /// Every point is finished; or the watchdog has reported (`stuck`).
     pub is_quiet: Signal<Out, Bit>,
     pub stuck: Signal<Out, Bit>,
+    /// In a core with changes: an item of a run begins, whose context starts to walk; a context that starts without one
+    /// (`own_start`); and what [`FinishedPoints`] and [`Starter`] must know.
+    pub launches: Vec<Signal<In, Bit>>,
+    pub launch: Vec<Signal<In, Start>>,
+    pub launch_context: Vec<Signal<In, ContextId>>,
+    pub launch_vertex: Vec<Signal<In, VertexId>>,
+    pub own_start: Vec<Signal<Out, Start>>,
+    pub has_changed: Vec<Signal<In, Bit>>,
+    pub is_pending: Vec<Signal<In, Bit>>,
     found: DFF<Outcome>,
     taken1: DFF<Bit>,
     taken2: DFF<Bit>,
@@ -71,6 +80,22 @@ pub struct Dispatcher {
 impl Dispatcher {
     pub fn new(config: Config) -> Self {
         Self { starter: Starter::new(config), priorities: Priorities::new(config), ..Self::default() }
+    }
+
+    /// The dispatcher of a core with changes.
+    pub fn with_changes(config: Config) -> Self {
+        Self {
+            starter: Starter::with_changes(config),
+            finished_points: FinishedPoints::with_changes(),
+            launches: vec![Signal::default()],
+            launch: vec![Signal::default()],
+            launch_context: vec![Signal::default()],
+            launch_vertex: vec![Signal::default()],
+            own_start: vec![Signal::default()],
+            has_changed: vec![Signal::default()],
+            is_pending: vec![Signal::default()],
+            ..Self::new(config)
+        }
     }
 }
 
@@ -149,5 +174,18 @@ impl Logic for Dispatcher {
         self.watchdog.finishes.next = self.finished_points.finishes.val();
         self.watchdog.is_quiet.next = self.finished_points.is_quiet.val();
         self.stuck.next = self.watchdog.stuck.val();
+        for i in 0..self.launches.len() {
+            self.starter.only_retries[i].next = self.has_changed[i].val();
+            self.starter.launches[i].next = self.launches[i].val();
+            self.starter.launch_context[i].next = self.launch_context[i].val();
+            self.starter.launch_vertex[i].next = self.launch_vertex[i].val();
+            self.own_start[i].next = self.starter.start.val();
+            if self.launches[i].val() {
+                self.start.next = self.launch[i].val();
+                self.flags.start.next = self.launch[i].val();
+            }
+            self.finished_points.has_changed[i].next = self.has_changed[i].val();
+            self.finished_points.is_pending[i].next = self.is_pending[i].val();
+        }
     }
 }

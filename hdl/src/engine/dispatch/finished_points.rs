@@ -44,12 +44,23 @@ pub struct FinishedPoints {
     pub is_quiet: Signal<Out, Bit>,
     /// A point is finished at this edge.
     pub finishes: Signal<Out, Bit>,
+    /// In a core with changes: the mesh has been changed, so that all points come as items, which are not counted here;
+    /// and some point of an `Insert` is not finished.
+    pub has_changed: Vec<Signal<In, Bit>>,
+    pub is_pending: Vec<Signal<In, Bit>>,
     finished: DFF<Bits<15>>,
     /// The number of points that were finished at the last edge.
     more: DFF<Bits<2>>,
     is_behind: DFF<Bit>,
     inserts: Signal<Local, Bit>,
     wide_more: Signal<Local, Bits<15>>,
+}
+
+impl FinishedPoints {
+    /// The block of a core with changes.
+    pub fn with_changes() -> Self {
+        Self { has_changed: vec![Signal::default()], is_pending: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for FinishedPoints {
@@ -60,6 +71,11 @@ impl Logic for FinishedPoints {
         self.finishes.next = self.inserts.val() | self.duplicate.val() | self.seeds.val();
 
         self.is_behind.d.next = self.finished.q.val() != self.arrived.val();
+        for i in 0..self.has_changed.len() {
+            if self.has_changed[i].val() {
+                self.is_behind.d.next = self.is_pending[i].val();
+            }
+        }
         self.is_quiet.next = ((!self.is_behind.q.val()) | self.has_no_start.val()) & self.all_rest.val();
 
         self.more.d.next = 0.into();

@@ -20,6 +20,7 @@
 //! the first points of a job go to the first context of its team ([`DueCheck`], [`Starter`], [`NextPoint`]); L11, a
 //! walk starts in the mesh of its own job ([`NextPoint`]).
 
+mod change_view;
 mod context_flags;
 mod dispatcher;
 mod due_check;
@@ -32,6 +33,7 @@ mod start_pointer;
 mod starter;
 mod watchdog;
 
+pub use change_view::ChangeView;
 pub use context_flags::ContextFlags;
 pub use dispatcher::Dispatcher;
 pub use due_check::DueCheck;

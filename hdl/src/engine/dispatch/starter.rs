@@ -98,6 +98,12 @@ pub struct Starter {
     pub start: Signal<Out, Start>,
     /// A context starts the solo insertion of its point.
     pub solo_start: Signal<Out, SoloStart>,
+    /// In a core with changes: contexts take no points here, because all points come as items of runs; and the context
+    /// that begins an item, with its vertex.
+    pub only_retries: Vec<Signal<In, Bit>>,
+    pub launches: Vec<Signal<In, Bit>>,
+    pub launch_context: Vec<Signal<In, ContextId>>,
+    pub launch_vertex: Vec<Signal<In, VertexId>>,
     /// The context that the pointer has left last, and the point that it has.
     left: DFF<Passed>,
     left_point: DFF<VertexId>,
@@ -132,6 +138,17 @@ impl Starter {
             plans: PlanTable::new(config),
             roots: table(),
             ..Self::default()
+        }
+    }
+
+    /// The starter of a core with changes.
+    pub fn with_changes(config: Config) -> Self {
+        Self {
+            only_retries: vec![Signal::default()],
+            launches: vec![Signal::default()],
+            launch_context: vec![Signal::default()],
+            launch_vertex: vec![Signal::default()],
+            ..Self::new(config)
         }
     }
 }
@@ -223,6 +240,16 @@ impl Logic for Starter {
             }
             self.left.d.next = self.plans.shown.val();
             self.left_point.d.next = self.points.read_data.val();
+        }
+        for i in 0..self.launches.len() {
+            if self.only_retries[i].val() {
+                self.wants_new.d.next = false;
+            }
+            if self.launches[i].val() {
+                self.points.write_address.next = self.launch_context[i].val();
+                self.points.write_data.next = self.launch_vertex[i].val();
+                self.points.write_enable.next = true;
+            }
         }
         if self.reset.val() | self.clears.val() {
             self.wants_again.d.next = false;

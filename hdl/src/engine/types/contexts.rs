@@ -54,6 +54,32 @@ crate::packed! {
         pub context: ContextId,
     }
 
+    /// The events that end the items of a run of changes, and whether an item can begin.
+    pub struct ChangeEvents {
+        /// The visit that completes ends the attempt of its context with a complete ring (`hands_over`), or finds that
+        /// a vertex has the point (`duplicate`); the vertex that its context inserts. A root visit completes
+        /// (`is_root`).
+        pub hands_over: bool,
+        pub duplicate: bool,
+        pub is_root: bool,
+        pub vertex: VertexId,
+        /// The last write of a commit is requested; its context and its new vertex.
+        pub commit_ends: bool,
+        pub committed_context: ContextId,
+        pub committed_vertex: VertexId,
+        /// A solo insertion has ended, with its point in the mesh or not; its context.
+        pub solo_ends: bool,
+        pub solo_inserts: bool,
+        pub solo_context: ContextId,
+        /// A context takes a point of an `Insert` that is dealt to it, and that vertex.
+        pub takes: bool,
+        pub taken: VertexId,
+        /// An item can begin at this edge.
+        pub may_launch: bool,
+        /// No visit is in flight and no lock is held; the flag rises a clock after both hold.
+        pub all_rest: bool,
+    }
+
     /// A context starts the solo insertion of its point.
     pub struct SoloStart {
         pub valid: bool,

@@ -64,14 +64,14 @@ pub(super) struct CommandPort {
 }
 
 impl CommandPort {
-    pub(super) fn is_ready(&self, was: &Registers, sweeps: bool) -> bool {
+    pub(super) fn is_ready(&self, was: &Registers, sweeps: bool, point_waits: bool) -> bool {
         // The fourth point waits until the first three are known to span a triangle; in a batch, the point after the
         // first three of every job waits.
         let start_is_open = was.seeder.has_triple && !was.seeder.seeded && !was.seeder.collinear;
         match self.state {
             State::Command => !sweeps,
             State::First | State::Count => true,
-            State::Points => self.count != 0 && !self.came && (!start_is_open || was.watchdog.stuck),
+            State::Points => self.count != 0 && !self.came && !point_waits && (!start_is_open || was.watchdog.stuck),
             State::Settle | State::Answer => false,
         }
     }
@@ -120,6 +120,11 @@ impl CommandPort {
             self.arrived = 0;
             self.refused = 0;
         }
+    }
+
+    /// Takes note that an item of a change has put this vertex into the mesh: later points have higher ids.
+    pub(super) fn raise(&mut self, vertex: u32) {
+        self.arrived = self.arrived.max(vertex + 1);
     }
 
     /// Counts the contexts of one more member of each team.

@@ -79,7 +79,8 @@ impl Contexts {
         if let Some(outcome) = &was.outcome {
             self.take_outcome(was, outcome, defect);
         }
-        if let Some(context) = wires.start.map(|start| start.context) {
+        let launched = wires.launch.map(|launch| launch.context);
+        if let Some(context) = wires.start.map(|start| start.context).or(launched) {
             self.asleep &= !(1 << context);
             self.retrying &= !(1 << context);
             self.began |= 1 << context;
@@ -99,7 +100,7 @@ impl Contexts {
         if wires.seeds {
             self.finished += 3;
         }
-        self.rest = was.contexts.all_rest(built) && wires.start.is_none();
+        self.rest = was.contexts.all_rest(built) && wires.start.is_none() && launched.is_none();
         if was.command.clears {
             self.reset(built);
         }

@@ -47,7 +47,7 @@ impl Counters {
         self.commit_cycles += u32::from(was.commit.state != CommitState::Idle);
         self.release_cycles += u32::from(wires.clear.is_some() && was.command.inserting);
         self.tests += u32::from(was.solo.tests());
-        self.duplicates += u32::from(wires.solo_ends && !wires.solo_inserts);
+        self.duplicates += u32::from(wires.solo_ends && !wires.solo_inserts && !wires.changes_mesh);
         self.count_outcome(was, wires);
         if let Some(job) = wires.committed {
             let latency = was.counters.latency_since(job.since);
@@ -71,7 +71,7 @@ impl Counters {
         self.root_visits += u32::from(kind == (false, true));
         self.tests += u32::from(kind == (true, true));
         self.revisits += u32::from(outcome.revisits);
-        self.duplicates += u32::from(outcome.duplicate);
+        self.duplicates += u32::from(outcome.duplicate && !wires.changes_mesh);
         self.overflows += u32::from(outcome.overflows);
         self.aborts += u32::from(outcome.aborts);
         self.root_retries += u32::from(outcome.root_changed);

@@ -1,10 +1,11 @@
-//! Runs of questions about a mesh that stands, clock by clock: the words of a run, the queues of its items, the walks,
-//! and the parts of its answer.
+//! Runs on a mesh that stands, clock by clock: the words of a run, the queues of its items, the walks of questions, and
+//! the parts of its answer. The insertion engine carries out the items of changes.
 //!
-//! Hardware twin: the block `Questions`. During a run no insertion is at work, so all visits in the pipeline are those
-//! of questions, and no record changes. In this model a visit is therefore an entry of a delay line, and its record is
-//! read when the visit completes.
+//! Hardware twin: the block `Questions`. During a run of questions no insertion is at work, so all visits in the pipeline
+//! are those of questions, and no record changes. In this model such a visit is therefore an entry of a delay line, and
+//! its record is read when the visit completes.
 
+mod changes;
 mod item_queues;
 mod part_queue;
 mod run_port;
@@ -13,12 +14,13 @@ mod step;
 
 use super::beat::Beat;
 use super::memory::Memory;
-use incircle_protocol::RunKind;
+use changes::{Around, Changes};
+use incircle_protocol::{Config, RunKind};
 use item_queues::ItemQueues;
 use part_queue::{Part, PartQueue};
 use run_port::RunPort;
 use signals::Item;
-pub(super) use signals::Signals;
+pub(super) use signals::{Events, ItemEnd, Launch, Signals};
 use std::collections::VecDeque;
 use step::{Followed, Visit};
 
@@ -36,11 +38,12 @@ pub(super) struct Questions {
     items: Vec<Item>,
     /// The record at which the last walk of each context has ended.
     hints: Vec<u32>,
+    changes: Changes,
 }
 
 impl Questions {
-    pub(super) fn new(contexts: u32) -> Self {
-        let contexts = contexts as usize;
+    pub(super) fn new(config: Config) -> Self {
+        let contexts = config.contexts as usize;
         Self {
             port: RunPort::new(),
             queues: ItemQueues::new(contexts),
@@ -48,12 +51,13 @@ impl Questions {
             visits: VecDeque::from(vec![None; LOOP]),
             items: vec![Item::default(); contexts],
             hints: vec![0; contexts],
+            changes: Changes::new(contexts, config.points),
         }
     }
 
     /// Whether the core answers runs of this kind.
     pub(super) fn answers(kind: RunKind) -> bool {
-        matches!(kind, RunKind::Locate | RunKind::Interpolate)
+        matches!(kind, RunKind::Locate | RunKind::Interpolate | RunKind::InsertAs)
     }
 
     /// Whether a run is under way.
@@ -71,8 +75,48 @@ impl Questions {
         self.parts.offered()
     }
 
-    /// Simulates one edge.
-    pub(super) fn clock(&mut self, signals: &Signals, memory: &Memory) {
+    /// Whether a run of changes is under way.
+    pub(super) fn changes_mesh(&self) -> bool {
+        self.port.is_active() && self.port.is_change()
+    }
+
+    /// Whether an item of a change has begun since the last clear, so that contexts take no points by themselves.
+    pub(super) fn has_changed(&self) -> bool {
+        self.changes.has_changed
+    }
+
+    /// Whether some point of an `Insert` is not finished, and whether the last one waits for its context.
+    pub(super) fn is_pending(&self, came: bool) -> bool {
+        !self.port.is_active() && (came || self.point_waits() || !self.queues.rests())
+    }
+
+    pub(super) fn point_waits(&self) -> bool {
+        self.changes.point_waits()
+    }
+
+    /// The item of a change that begins at this edge if the insertion engine lets it.
+    pub(super) fn launch(&self) -> Option<Launch> {
+        if self.asks() || !self.parts.has_room() {
+            return None;
+        }
+        let (context, item) = self.queues.first(self.offer())?;
+        Some(Launch { context, item, record: self.hints[context], stores: self.changes_mesh() })
+    }
+
+    /// Whether a run of questions is under way.
+    fn asks(&self) -> bool {
+        self.port.is_active() && !self.port.is_change()
+    }
+
+    /// The item that is offered to the queues.
+    fn offer(&self) -> Option<(usize, Item)> {
+        let run = self.port.is_active().then(|| self.port.dealt());
+        self.changes.offered(run, self.port.is_change())
+    }
+
+    /// Simulates one edge. Returns the vertex that has come into the mesh with an item of a change.
+    pub(super) fn clock(&mut self, signals: &Signals, events: &Events, memory: &Memory) -> Option<u32> {
+        let asks = self.asks();
         let visit = self.visits.pop_front().flatten();
         let followed = visit.map(|visit| {
             let place = self.items[visit.context].place;
@@ -80,7 +124,7 @@ impl Questions {
         });
         let next = followed.and_then(|followed| followed.next());
         let context = visit.map_or(0, |visit| visit.context);
-        let ends = followed.is_some_and(|followed| matches!(followed, Followed::End(..)));
+        let found_end = followed.is_some_and(|followed| matches!(followed, Followed::End(..)));
         let came = match followed {
             Some(Followed::End(outcome, located)) => {
                 Some(Part { number: self.items[context].number, outcome, located })
@@ -90,20 +134,42 @@ impl Questions {
         if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives())) {
             self.hints[context] = visit.record;
         }
-        let may_launch = self.parts.has_room() && next.is_none();
-        let offer = self.port.dealt();
-        let done = self.queues.clock(offer, ends.then_some(context), may_launch);
-        let launched = done.launched.map(|(context, item)| {
+        let (may_launch, ends) = match asks {
+            true => (self.parts.has_room() && next.is_none(), found_end.then_some(context)),
+            false => {
+                let end = events.ends.or(events.solo_ends).filter(|_| self.changes.has_changed);
+                (events.launch.is_some(), end.map(|end| end.context))
+            }
+        };
+        let offer = self.offer();
+        let done = self.queues.clock(offer, ends, may_launch);
+        let around = Around {
+            is_active: self.port.is_active(),
+            is_change: self.port.is_change(),
+            dealt: self.port.dealt(),
+            vertex: self.port.vertex(),
+            accepted: done.taken,
+            has_room: self.parts.has_room() && done.launched.is_none(),
+            contexts: signals.contexts,
+            clears: signals.clears,
+        };
+        if let Some((context, record)) = events.root.filter(|_| self.changes.has_changed) {
+            self.hints[context] = record;
+        }
+        let change = self.changes.clock(&around, events, &self.items);
+        let walk = done.launched.and_then(|(context, item)| {
             self.items[context] = item;
-            Visit::walk(context, self.hints[context])
+            asks.then(|| Visit::walk(context, self.hints[context]))
         });
-        self.visits.push_back(next.or(launched));
-        let is_over = self.parts.is_over();
+        self.visits.push_back(next.or(walk));
+        let is_over = self.parts.is_over() && (asks || events.all_rest);
         let head = self.port.head(signals.signature);
-        self.port.clock(signals, done.taken, is_over);
-        self.parts.clock(head, launched.is_some(), came, signals.is_taken);
+        let begins = done.launched.is_some() && self.port.is_active() || change.is_noted;
+        self.port.clock(signals, change.taken, is_over);
+        self.parts.clock(head, begins, came.or(change.came), signals.is_taken);
         if signals.clears {
             self.hints.fill(0);
         }
+        change.raised
     }
 }

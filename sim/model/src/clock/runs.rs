@@ -3,8 +3,10 @@
 use super::command_port::State as CommandState;
 use super::living::{LivingDefect, LivingEngine, RunCounts, Signals, Signature, Standing};
 use super::memory::Write;
+use super::pipeline::Completion;
 use super::ports::{Inputs, Outputs};
-use super::questions::{Questions, Signals as QuestionSignals};
+use super::questions::{Events, ItemEnd, Launch, Questions, Signals as QuestionSignals};
+use super::wires::Wires;
 use super::ClockModel;
 use incircle_protocol::{command_opcode, Opcode, RunKind};
 
@@ -25,11 +27,11 @@ impl ClockModel {
         self
     }
 
-    /// The same core with questions about a mesh that stands, and no other runs: a core of the hardware as far as it is
-    /// built. Of the questions it has `Locate` and `Interpolate`, and its identity does not offer runs.
+    /// The same core with the runs that the hardware has so far: `Locate`, `Interpolate` and `InsertAs`. Its identity
+    /// does not offer runs.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
-        self.questions = Some(Questions::new(self.config.contexts));
+        self.questions = Some(Questions::new(self.config));
         self
     }
 
@@ -59,12 +61,12 @@ impl ClockModel {
         }
     }
 
-    /// Simulates one edge of the questions. Returns the inputs that are left for the rest of the core.
-    pub(super) fn clock_questions(&mut self, inputs: Inputs) -> Inputs {
+    /// The inputs that are left for the rest of the core beside the blocks of runs, and the signals for these.
+    pub(super) fn question_signals(&self, inputs: Inputs) -> (Inputs, Option<QuestionSignals>) {
         let awaits_command = self.registers.command.state == CommandState::Command && !self.sweeps();
         let has_mesh = self.has_mesh();
-        let Some(questions) = &mut self.questions else {
-            return inputs;
+        let Some(questions) = &self.questions else {
+            return (inputs, None);
         };
         let command = &self.registers.command;
         let is_active = questions.is_active();
@@ -80,8 +82,62 @@ impl ClockModel {
             contexts: command.contexts as usize,
             signature: u32::from(self.engine) << 8 | u32::from(command.tag),
         };
-        questions.clock(&signals, &self.memory);
-        Inputs { command_valid: inputs.command_valid && !is_active && begins.is_none(), ..inputs }
+        let command_valid = inputs.command_valid && !is_active && begins.is_none();
+        (Inputs { command_valid, ..inputs }, Some(signals))
+    }
+
+    /// Simulates one edge of the blocks of runs. Returns the vertex that has come into the mesh with an item of a
+    /// change.
+    pub(super) fn clock_questions(&mut self, signals: &QuestionSignals, wires: &Wires) -> Option<u32> {
+        let events = self.change_events(wires);
+        let raised = self.questions.as_mut()?.clock(signals, &events, &self.memory);
+        if let Some(Launch { context, item, stores, .. }) = wires.launch {
+            self.memory.point_id[context] = item.vertex;
+            self.memory.position[context] = item.place;
+            self.memory.since[context] = self.registers.counters.now;
+            if stores {
+                self.memory.set_vertex(item.vertex, item.place);
+            }
+        }
+        raised
+    }
+
+    /// The item of a change that begins at this edge. The queue of visits takes one bundle a clock.
+    pub(super) fn launch(&self, is_blocked: bool) -> Option<Launch> {
+        let was = &self.registers;
+        let may = !is_blocked && was.contexts.solo == 0 && !was.solo.is_at_work();
+        self.questions.as_ref().filter(|_| may).and_then(Questions::launch)
+    }
+
+    /// The events of the insertion engine that concern the items of changes.
+    fn change_events(&self, wires: &Wires) -> Events {
+        let was = &self.registers;
+        let end = |context: usize, duplicate: Option<Completion>| ItemEnd {
+            context,
+            vertex: self.memory.point_id[context],
+            duplicate: duplicate.map(|done| {
+                let place = self.memory.position[context];
+                let is_met = |&v: &u32| v != wires.infinite && self.memory.vertex(v) == place;
+                done.record.v.into_iter().find(is_met).unwrap_or(0)
+            }),
+        };
+        let ends = wires.outcome.filter(|outcome| outcome.commit.is_some() || outcome.duplicate);
+        let root = wires.done.filter(|done| wires.outcome.is_some() && done.visit.is_root());
+        let solo_ends = wires.solo_ends.then(|| {
+            let duplicate = if wires.solo_inserts { None } else { was.solo.last_visit() };
+            end(was.solo.context(), duplicate)
+        });
+        Events {
+            ends: ends.map(|outcome| end(outcome.context, wires.done.filter(|_| outcome.duplicate))),
+            solo_ends,
+            root: root.map(|done| (done.visit.context, done.visit.record)),
+            committed: wires.committed.map(|job| (job.context, job.vertex)),
+            taken: wires.start.and_then(|start| start.id),
+            launch: wires.launch,
+            all_rest: was.contexts.rest,
+            arrival: was.command.came.then(|| (was.command.came_id, self.memory.vertex(was.command.came_id))),
+            arrived: was.command.arrived,
+        }
     }
 
     /// Whether there is a mesh to ask and to change. A batch has several.

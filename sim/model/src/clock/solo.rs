@@ -91,6 +91,11 @@ impl Solo {
         self.state != State::Idle
     }
 
+    /// The visit that completed in the clock before.
+    pub(super) fn last_visit(&self) -> Option<Completion> {
+        self.done
+    }
+
     /// The context whose point is inserted.
     pub(super) fn context(&self) -> usize {
         self.context

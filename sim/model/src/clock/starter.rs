@@ -64,7 +64,7 @@ impl Starter {
 
     /// The walk of the context that the pointer left last, if one is due. If only one context works, it may be starting
     /// at this very edge, and then nothing is due.
-    fn due(&self, was: &Registers, tables: &Tables, defect: Option<Defect>) -> Option<Start> {
+    fn due(&self, was: &Registers, wires: &Wires, tables: &Tables, defect: Option<Defect>) -> Option<Start> {
         let Passed { context, id } = self.passed;
         let bit = 1 << context;
         let flags = &was.contexts;
@@ -80,7 +80,8 @@ impl Starter {
             let ready = flags.busy & bit == 0 && rested && may;
             return ready.then(|| Start { context, id: None, push: Bundle::look(context, tables.root[context]) });
         }
-        let ready = self.is_planned && id < was.command.arrived && self.works(was, context, defect);
+        let ready =
+            !wires.has_changed && self.is_planned && id < was.command.arrived && self.works(was, context, defect);
         let team = team_of(context, was.command.jobs) as u32;
         let start = match flags.hinted & bit {
             // L11: without a root, the walk starts at the first record of the job.
@@ -117,7 +118,7 @@ impl Starter {
             let context = was.starter.turn;
             let asks_for_solo = was.contexts.solo & 1 << self.passed.context != 0 && !was.solo.is_at_work();
             let solo = asks_for_solo.then_some(self.passed.context);
-            let due = was.starter.due(was, tables, defect);
+            let due = was.starter.due(was, wires, tables, defect);
             self.candidate = Candidate { due, solo };
             self.passed = Passed { context, id: next_id(was, context, memory) };
             self.turn += 1;

@@ -42,8 +42,11 @@ impl FinishedPoints {
         !self.is_behind || was.seeder.has_no_start()
     }
 
-    pub(super) fn clock(&mut self, was: &Registers) {
+    pub(super) fn clock(&mut self, was: &Registers, wires: &Wires) {
         self.finished = if was.command.clears { 0 } else { was.contexts.finished };
-        self.is_behind = was.finished_points.finished != was.command.arrived;
+        self.is_behind = match wires.has_changed {
+            true => wires.is_pending,
+            false => was.finished_points.finished != was.command.arrived,
+        };
     }
 }

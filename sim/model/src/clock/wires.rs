@@ -14,6 +14,7 @@ use super::counters::Counters;
 use super::memory::Write;
 use super::pipeline::{Bundle, Completion};
 use super::ports::Inputs;
+use super::questions::{Launch, Questions};
 use super::responder::Responder;
 use super::ring::Head;
 use super::seeder::Seeder;
@@ -85,6 +86,13 @@ pub(super) struct Wires {
     pub new_vertex: Option<(u32, Point)>,
     /// The walk that a context starts.
     pub start: Option<Start>,
+    /// The item of a change that begins, whose context starts to walk.
+    pub launch: Option<Launch>,
+    /// Whether contexts take points as items alone; whether a run of changes is under way; whether some point of an
+    /// `Insert` that came after a change is not finished.
+    pub has_changed: bool,
+    pub changes_mesh: bool,
+    pub is_pending: bool,
     /// Whether a context would start, but a visit completes or the vertex memory takes a point, so
     /// that the pointer waits.
     pub start_is_held: bool,
@@ -111,7 +119,9 @@ impl ClockModel {
     pub(super) fn wires(&self, inputs: Inputs) -> Wires {
         let was = &self.registers;
         let config = self.config;
-        let ready = was.command.is_ready(was, self.sweeps());
+        let questions = self.questions.as_ref();
+        let point_waits = questions.is_some_and(Questions::point_waits);
+        let ready = was.command.is_ready(was, self.sweeps(), point_waits);
         let word = (inputs.command_valid && ready).then_some(inputs.command_data);
         let done = self.pipeline.completion();
         let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| self.outcome(&done));
@@ -127,6 +137,7 @@ impl ClockModel {
         let head = self.ring.head;
         let rests = was.contexts.rest;
         let solo_inserts = was.solo.inserts();
+        let start = wanted.filter(|_| !lacks_port && !lacks_queue);
         Wires {
             word,
             response_ready: inputs.response_ready,
@@ -138,7 +149,11 @@ impl ClockModel {
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.finished_points.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
-            start: wanted.filter(|_| !lacks_port && !lacks_queue),
+            start,
+            launch: self.launch(lacks_queue || start.is_some()),
+            has_changed: questions.is_some_and(Questions::has_changed),
+            changes_mesh: questions.is_some_and(Questions::changes_mesh),
+            is_pending: questions.is_some_and(|questions| questions.is_pending(was.command.came)),
             start_is_held: wanted.is_some() && (lacks_port || outcome.is_some()),
             seeds: was.seeder.seeds(),
             head,

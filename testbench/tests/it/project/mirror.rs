@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 57] = [
+const ELSEWHERE: [(&str, &str, &str); 59] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -22,6 +22,7 @@ const ELSEWHERE: [(&str, &str, &str); 57] = [
     ("engine/commit/ring_list", "blocks/engine/commit/ring_reader", "the memory behind the reader"),
     ("engine/count/cycle_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
     ("engine/count/visit_counters", "blocks/engine/count/counters", "a part of the counters, at their ports"),
+    ("engine/dispatch/change_view", "cores/changes", "the events of a core with changes, at every clock"),
     ("engine/dispatch/dispatcher", "cores/lockstep", "wires between the blocks of the room"),
     ("engine/dispatch/due_check", "blocks/engine/dispatch/starter", "a question that only the starter asks"),
     ("engine/dispatch/open_teams", "blocks/engine/dispatch/starter", "a table that only the starter asks"),
@@ -46,6 +47,7 @@ const ELSEWHERE: [(&str, &str, &str); 57] = [
     ("commands/payload_words", "blocks/commands/responder", "the payload that only the responder asks for"),
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
+    ("living/changes", "cores/changes", "wires between check, ends and late points"),
     (
         "living/item_dealer",
         "blocks/living/run_port",

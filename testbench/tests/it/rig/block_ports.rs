@@ -8,11 +8,11 @@ use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Halves, 
 use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
-    Attempt, Beyond, Bundle, Case, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal, Entry,
-    EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan, PlanWrite,
-    Planned, Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, SeedProgress,
-    SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit,
-    VisitEvents, Write, WriteEnables,
+    Attempt, Beyond, Bundle, Case, ChangeEvents, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal,
+    Entry, EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan,
+    PlanWrite, Planned, Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead,
+    SeedProgress, SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict,
+    Visit, VisitEvents, Write, WriteEnables,
 };
 use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
@@ -123,6 +123,7 @@ macro_rules! packed_values {
     )*};
 }
 packed_values!(
+    ChangeEvents,
     EngineFlags,
     OfferedBeat,
     RoutedWord,

@@ -38,6 +38,18 @@ impl ItemQueues {
         }
     }
 
+    /// Whether no context has an item.
+    pub(super) fn rests(&self) -> bool {
+        self.idle.iter().all(|&idle| idle)
+    }
+
+    /// The first item in the line, with the item on offer.
+    pub(super) fn first(&self, offer: Option<(usize, Item)>) -> Option<(usize, Item)> {
+        let [comes, _] = self.fetched;
+        let begins = offer.filter(|&(context, _)| self.idle[context] && comes.is_none());
+        self.beginners.front().copied().or(comes).or(begins)
+    }
+
     /// Simulates one edge, with an item on offer and a context whose item ends.
     pub(super) fn clock(&mut self, offer: Option<(usize, Item)>, ends: Option<usize>, may_launch: bool) -> Done {
         let [comes, comes_next] = self.fetched;

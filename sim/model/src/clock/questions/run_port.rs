@@ -30,6 +30,9 @@ pub(super) struct RunPort {
     /// Whether the head of the answer is given in this clock.
     answers: bool,
     held: Option<(usize, Item)>,
+    /// The first word of the item of two words that is coming, and that of the item on offer.
+    first: Option<u32>,
+    vertex: u32,
     context: usize,
     number: u32,
 }
@@ -44,6 +47,8 @@ impl RunPort {
             refusal: None,
             answers: false,
             held: None,
+            first: None,
+            vertex: 0,
             context: 0,
             number: 0,
         }
@@ -60,6 +65,16 @@ impl RunPort {
             State::Refused => self.left > 0,
             State::Idle | State::Judge | State::Settle => false,
         }
+    }
+
+    /// Whether the run under way changes the mesh, or the last one did.
+    pub(super) fn is_change(&self) -> bool {
+        self.kind == RunKind::InsertAs
+    }
+
+    /// The vertex of the item on offer, which can be any word.
+    pub(super) fn vertex(&self) -> u32 {
+        self.vertex
     }
 
     /// The item on offer to its context.
@@ -88,7 +103,7 @@ impl RunPort {
             State::Idle => {
                 if let Some(kind) = signals.begins {
                     *self = Self { state: State::Count, kind, ..*self };
-                    (self.context, self.number) = (0, 0);
+                    (self.context, self.number, self.first) = (0, 0, None);
                 }
             }
             State::Count => {
@@ -99,14 +114,22 @@ impl RunPort {
             State::Judge => self.judge(signals.has_mesh),
             State::Items => {
                 if let Some(word) = word {
-                    self.hold(word, signals.contexts);
+                    match self.first.take() {
+                        None if self.is_change() => self.first = Some(word),
+                        first => self.hold(first, word, signals.contexts),
+                    }
                 }
                 if was.left == 0 && was.held.is_none() && !was.answers {
                     self.state = State::Settle;
                 }
             }
             State::Refused => {
-                self.left -= u32::from(word.is_some());
+                if let Some(word) = word {
+                    match self.first.take() {
+                        None if self.is_change() => self.first = Some(word),
+                        _ => self.left -= 1,
+                    }
+                }
                 if was.left == 0 {
                     (self.answers, self.state) = (true, State::Settle);
                 }
@@ -130,9 +153,10 @@ impl RunPort {
         self.state = if self.answers { State::Items } else { State::Refused };
     }
 
-    fn hold(&mut self, word: u32, contexts: usize) {
+    fn hold(&mut self, first: Option<u32>, word: u32, contexts: usize) {
         let place = Point { x: word & 0xffff, y: word >> 16 };
-        self.held = Some((self.context, Item { number: self.number, place }));
+        self.vertex = first.unwrap_or(0);
+        self.held = Some((self.context, Item { number: self.number, place, vertex: self.vertex }));
         self.number = part_item(self.number + 1);
         self.context = (self.context + 1) % contexts;
         self.left -= 1;

@@ -1,13 +1,57 @@
-//! The items of a run, and the signals that the rest of the core gives to the blocks of questions.
+//! The items of a run, and the signals that the rest of the core gives to the blocks of runs.
 
 use crate::predicate::Point;
 use incircle_protocol::RunKind;
 
 /// An item of a run.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Item {
+pub(in super::super) struct Item {
     pub number: u32,
     pub place: Point,
+    /// The vertex of an item of a change.
+    pub vertex: u32,
+}
+
+/// An item of a change that begins, and the record at which its walk begins.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct Launch {
+    pub context: usize,
+    pub item: Item,
+    pub record: u32,
+    /// Whether the point has to be stored.
+    pub stores: bool,
+}
+
+/// The end of the item of a context, with the vertex that the context inserts.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct ItemEnd {
+    pub context: usize,
+    pub vertex: u32,
+    /// The vertex that has the point of the item.
+    pub duplicate: Option<u32>,
+}
+
+/// The events of the insertion engine at an edge.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in super::super) struct Events {
+    /// The completed visit ends the item of its context: its attempt hands its ring over, or a vertex has the point.
+    pub ends: Option<ItemEnd>,
+    /// A solo insertion has ended.
+    pub solo_ends: Option<ItemEnd>,
+    /// A root visit has completed, for this context and record.
+    pub root: Option<(usize, u32)>,
+    /// The last write of a commit is requested; its context and its new vertex.
+    pub committed: Option<(usize, u32)>,
+    /// The vertex that a context takes without an item.
+    pub taken: Option<u32>,
+    /// The item that begins.
+    pub launch: Option<Launch>,
+    /// Whether no visit is in flight and no lock is held.
+    pub all_rest: bool,
+    /// A point of an `Insert` that comes.
+    pub arrival: Option<(u32, Point)>,
+    /// Number of ids that are in use.
+    pub arrived: u32,
 }
 
 /// The signals of the rest of the core at an edge.

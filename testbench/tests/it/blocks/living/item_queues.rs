@@ -8,7 +8,7 @@ use incircle_hdl::living::ItemQueues;
 use incircle_protocol::{Config, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!(ItemQueues, [reset, dealt, ends, launches], [taken, waits, launch], clock);
+named_ports!(ItemQueues, [reset, dealt, ends, launches], [taken, waits, launch, rests], clock);
 
 /// Most items that wait for a context.
 const DEPTH: usize = 32;
@@ -16,7 +16,7 @@ const DEPTH: usize = 32;
 const SWEEP: usize = 33;
 const FOUR_TIMES_SIX: Config = Config { contexts: 24, ..TINY };
 
-/// Number and place of an item.
+/// Number and place of an item. Its vertex has the bits of the place turned over.
 type Item = (u64, u64);
 
 /// What the queues must do.
@@ -58,6 +58,7 @@ impl Lists {
         block.set("dealt_context", context as u64);
         block.set("dealt_item_number", number);
         block.set("dealt_item_place", place);
+        block.set("dealt_item_vertex", !place & 0x7fff);
         block.set("ends_valid", ends.is_some());
         block.set("ends_context", ends.unwrap_or(0) as u64);
         block.set("launches", false);
@@ -70,11 +71,13 @@ impl Lists {
         self.beginners.extend(comes.or_else(|| dealt.filter(|_| begins)));
         block.expect("taken", begins || stores);
         block.expect("waits", !self.beginners.is_empty());
+        block.expect("rests", self.idle.iter().all(|&idle| idle));
         let first = self.beginners.front().copied();
         if let Some((context, (number, place))) = first {
             block.expect("launch_context", context as u64);
             block.expect("launch_item_number", number);
             block.expect("launch_item_place", place);
+            block.expect("launch_item_vertex", !place & 0x7fff);
         }
         let launched = first.filter(|_| wants);
         block.set("launches", launched.is_some());

@@ -21,7 +21,9 @@ type Part = (u64, u64, [u64; 3], [u64; 3]);
 
 /// All beats that a part can have, the first words in the low halves.
 fn beats((number, outcome, [v0, v1, v2], [w0, w1, w2]): Part) -> [u64; 5] {
-    [outcome << 24 | number | v0 << 32, v1 | v2 << 32, w0, w1, w2]
+    // A vertex beyond the capacity is any word.
+    let vertex = if outcome == 8 { w0 } else { v0 };
+    [outcome << 24 | number | vertex << 32, v1 | v2 << 32, w0, w1, w2]
 }
 
 /// The inputs of a clock.

@@ -6,7 +6,7 @@ use crate::rig::visit_model::{orientation, Point, Record};
 use incircle_hdl::living::QuestionStep;
 use incircle_testkit::SplitMix64;
 
-named_ports!(QuestionStep, [completion, sides], [asks, bundle, arrives, ends, finding]);
+named_ports!(QuestionStep, [completion, sides], [asks, bundle, arrives, ends, finding, corner]);
 
 const ROUNDS: usize = 20_000;
 const INFINITE: u64 = 0x7fff;
@@ -109,6 +109,9 @@ fn question_step_follows_the_rules() {
                 block.expect("finding_outcome", outcome);
                 block.expect("finding_v0", v0);
                 block.expect("finding_v1", v1);
+                if outcome == 1 {
+                    block.expect("corner", v0);
+                }
                 block.expect("finding_v2", v2);
                 block.expect("finding_w0", w0);
                 block.expect("finding_w1", w1);

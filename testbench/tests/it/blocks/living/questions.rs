@@ -25,9 +25,24 @@ named_ports!(
         command.data,
         response.ready,
         completion,
-        sides
+        sides,
+        capacity,
+        arrived,
+        arrival,
+        events
     ],
-    [command.ready, response.valid, response.data, response.both, response.last, push, position, is_active],
+    [
+        command.ready,
+        response.valid,
+        response.data,
+        response.both,
+        response.last,
+        push,
+        position,
+        is_active,
+        asks,
+        start
+    ],
     clock
 );
 
@@ -59,9 +74,13 @@ struct Paces {
 impl Rig {
     fn new(name: &str, config: Config, seed: u64) -> Self {
         let mut block = Stepper::new(name, Questions::new(config), seed as u32);
-        for port in ["clears", "begins", "command_valid", "response_ready", "completion_done"] {
+        for port in ["clears", "begins", "command_valid", "response_ready", "completion_done", "arrival_came"] {
             block.set(port, false);
         }
+        // No insertion is at work.
+        block.set("events", 0u64);
+        block.set("capacity", u64::from(config.points));
+        block.set("arrived", 0u64);
         for clock in 0..START {
             block.set("reset", clock < 4);
             block.settle();
@@ -115,6 +134,7 @@ impl Rig {
         if is_pushed {
             assert_eq!(self.block.get_masked("push_bundle", 3), 0, "one visit at a time");
         }
+        self.block.expect("start_valid", false);
         if let Some(visit) = pushed {
             assert!(!visit.rotates && !visit.locks, "questions turn no record and take no lock");
             assert!(self.visits.iter().flatten().all(|other| other.context != visit.context), "one visit a context");

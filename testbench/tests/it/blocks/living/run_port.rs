@@ -7,12 +7,13 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     RunPort,
     [reset, begins, opcode, signature, contexts, has_mesh, command.valid, command.data, taken, is_over],
-    [command.ready, dealt, head, is_active],
+    [command.ready, dealt, is_change, vertex, head, is_active],
     clock
 );
 
 const LOCATE: u64 = 8;
 const INTERPOLATE: u64 = 9;
+const INSERT_AS: u64 = 11;
 const BAD_RANGE: u64 = 2;
 const NO_MESH: u64 = 7;
 
@@ -38,10 +39,19 @@ struct Run {
 impl Run {
     /// Number of words of the part of an item.
     fn part_words(&self) -> u64 {
-        if self.opcode == INTERPOLATE {
-            10
+        match self.opcode {
+            INTERPOLATE => 10,
+            INSERT_AS => 2,
+            _ => 4,
+        }
+    }
+
+    /// Number of words of an item.
+    fn item_words(&self) -> u64 {
+        if self.opcode == INSERT_AS {
+            2
         } else {
-            4
+            1
         }
     }
 
@@ -69,7 +79,7 @@ impl Run {
         block.set("begins", false);
         let status = self.status();
         let (mut words, mut dealt, mut heads) = (0, 0, 0);
-        let mut places = Vec::new();
+        let mut given = Vec::new();
         let (wants_words, takes) = (1 + random.below(3), 1 + random.below(3));
         let mut rest = 4 + random.below(5);
         for clock in 0.. {
@@ -88,7 +98,8 @@ impl Run {
                 break;
             }
             if block.is("head_valid") {
-                assert!(status == 0 || words == 1 + self.count, "a refused run is answered behind its words");
+                let all = 1 + self.count * self.item_words();
+                assert!(status == 0 || words == all, "a refused run is answered behind its words");
                 let parts = if status == 0 { self.count } else { 0 };
                 block.expect("head_header", self.opcode << 24 | status << 16 | signature);
                 block.expect("head_length", self.part_words() * parts);
@@ -101,7 +112,13 @@ impl Run {
                 assert_eq!(status, 0, "no item of a refused run is dealt");
                 block.expect("dealt_context", dealt % self.contexts);
                 block.expect("dealt_item_number", dealt & 0xff_ffff);
-                block.expect("dealt_item_place", places[dealt as usize]);
+                let end = ((dealt + 1) * self.item_words()) as usize;
+                block.expect("dealt_item_place", given[end - 1]);
+                block.expect("is_change", self.opcode == INSERT_AS);
+                if self.opcode == INSERT_AS {
+                    block.expect("vertex", given[end - 2]);
+                    block.expect("dealt_item_vertex", given[end - 2] & 0x7fff);
+                }
             }
             let is_taken = offers && block.is("command_ready");
             block.set("taken", taken);
@@ -111,7 +128,7 @@ impl Run {
             dealt += u64::from(taken);
             if is_taken {
                 if words > 0 {
-                    places.push(word);
+                    given.push(word);
                 }
                 words += 1;
                 if words > most {
@@ -119,7 +136,11 @@ impl Run {
                 }
             }
         }
-        assert_eq!((words, heads), (1 + self.count, 1), "all words are taken, and one head is given");
+        assert_eq!(
+            (words, heads),
+            (1 + self.count * self.item_words(), 1),
+            "all words are taken, and one head is given"
+        );
         assert!(status != 0 || dealt == self.count, "all items are dealt");
     }
 }
@@ -131,7 +152,7 @@ fn run_port_deals_the_items_in_turn() {
     reset(&mut block);
     for number in 0..300 {
         let run = Run {
-            opcode: LOCATE + random.below(2),
+            opcode: [LOCATE, INTERPOLATE, INSERT_AS][random.below(3) as usize],
             count: [0, 1, 5, 60][number % 4],
             has_mesh: !random.once_in(4),
             contexts: 1 + random.below(24),
@@ -150,6 +171,8 @@ fn run_port_refuses_a_run_whose_answer_is_too_long() {
         (INTERPOLATE, 429_496_730, true),
         (INTERPOLATE, 429_496_729, false),
         (INTERPOLATE, 1 << 31, true),
+        (INSERT_AS, 1 << 31, true),
+        (INSERT_AS, (1 << 31) - 1, false),
     ] {
         let mut block = Stepper::new("living_run_port", RunPort::default(), 1);
         reset(&mut block);

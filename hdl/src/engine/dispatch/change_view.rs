@@ -1,0 +1,52 @@
+//! Collects the events that end the items of a run of changes, and says whether an item can begin.
+//!
+//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context starts, and no
+//!    context asks for a solo insertion or is at one. So the queue of visits takes one bundle a clock.
+//!
+//! Latency: none, the block is combinational.
+
+use crate::engine::types::{
+    ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, Outcome, SoloProgress, Start, VertexId,
+};
+use rust_hdl_core::prelude::*;
+
+#[derive(LogicBlock, Default)]
+pub struct ChangeView {
+    /// The consequences of the visit that completes, the ring that it completes, and the vertex of its context.
+    pub outcome: Signal<In, Outcome>,
+    pub commit: Signal<In, CommitRequest>,
+    pub vertex: Signal<In, VertexId>,
+    /// The completed visit may ask for visits.
+    pub may_ask: Signal<In, Bit>,
+    pub committed: Signal<In, Committed>,
+    pub solo: Signal<In, SoloProgress>,
+    pub contexts: Signal<In, ContextState>,
+    /// A context that starts without an item, or with an item that it tries again.
+    pub start: Signal<In, Start>,
+    pub events: Signal<Out, ChangeEvents>,
+    job: Signal<Local, CommitJob>,
+}
+
+impl Logic for ChangeView {
+    #[hdl_gen]
+    fn update(&mut self) {
+        self.job.next = self.committed.val().job;
+        self.events.next.hands_over = self.commit.val().valid;
+        self.events.next.duplicate = self.outcome.val().duplicate;
+        self.events.next.is_root = self.outcome.val().root_enable;
+        self.events.next.vertex = self.vertex.val();
+        self.events.next.commit_ends = self.committed.val().valid;
+        self.events.next.committed_context = self.job.val().context;
+        self.events.next.committed_vertex = self.job.val().vertex;
+        self.events.next.solo_ends = self.solo.val().ends;
+        self.events.next.solo_inserts = self.solo.val().inserts;
+        self.events.next.solo_context = self.solo.val().context;
+        self.events.next.takes = self.start.val().takes;
+        self.events.next.taken = self.start.val().id;
+        self.events.next.may_launch = (!self.may_ask.val())
+            & (!self.start.val().valid)
+            & (!self.contexts.val().solo_valid)
+            & (!self.solo.val().is_at_work);
+        self.events.next.all_rest = self.contexts.val().all_rest;
+    }
+}

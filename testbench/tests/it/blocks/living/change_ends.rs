@@ -1,0 +1,137 @@
+//! Runs `ChangeEnds` in Rust and in Verilog beside lists of items: each item must end once, and its part must name its
+//! number, its outcome and a vertex.
+
+use std::collections::VecDeque;
+
+use crate::rig::stepper::{named_ports, Stepper};
+use incircle_hdl::living::ChangeEnds;
+use incircle_protocol::TINY;
+use incircle_testkit::SplitMix64;
+
+named_ports!(
+    ChangeEnds,
+    [reset, runs, events, context_id, number, corner, refuses, is_beyond, refused_number, refused_vertex, has_room],
+    [is_noted, ends, came, raises, raised, unmarks, unmarked],
+    clock
+);
+
+const DUPLICATE: u64 = 5;
+const IN_USE: u64 = 7;
+const FULL: u64 = 8;
+
+/// An event of the insertion engine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Event {
+    Nothing,
+    HandsOver,
+    Duplicate,
+    Solo { inserts: bool },
+}
+
+#[test]
+fn change_ends_gives_each_item_its_part() {
+    let mut random = SplitMix64::new(84);
+    let mut block = Stepper::new("living_change_ends", ChangeEnds::new(TINY), 1);
+    // Number and vertex of the item that each context has handed over, and the parts of commits that are due.
+    let mut handed = [None::<[u64; 2]>; 2];
+    let mut due: VecDeque<[u64; 2]> = VecDeque::new();
+    let mut last = [0; 3];
+    let mut seen = [0; 4];
+    for clock in 0..20_000 {
+        let (reset, runs) = (clock < 4, !random.once_in(10) || !due.is_empty());
+        let context = random.below(2);
+        let [number, vertex, corner] = [random.bits(24), random.bits(15), random.bits(15)];
+        let event = match random.below(8) {
+            _ if reset => Event::Nothing,
+            0 | 1 if handed[context as usize].is_none() => Event::HandsOver,
+            2 => Event::Duplicate,
+            3 => Event::Solo { inserts: random.once_in(2) },
+            _ => Event::Nothing,
+        };
+        let committed = (0..2).find(|&context| handed[context].is_some() && random.once_in(4) && due.len() < 2);
+        let is_solo = matches!(event, Event::Solo { .. });
+        // Nothing else is under way beside a solo insertion.
+        let committed = committed.filter(|_| !is_solo && !reset);
+        let refused = (random.once_in(3), random.once_in(2), random.bits(24), random.bits(32), random.once_in(2));
+        block.set("reset", reset);
+        block.set("runs", runs);
+        block.set("events_hands_over", event == Event::HandsOver);
+        block.set("events_duplicate", event == Event::Duplicate);
+        block.set("events_vertex", vertex);
+        block.set("events_commit_ends", committed.is_some());
+        block.set("events_committed_context", committed.unwrap_or(0) as u64);
+        let done = committed.and_then(|context| handed[context]).unwrap_or([0, 0]);
+        block.set("events_committed_vertex", done[1]);
+        block.set("events_solo_ends", is_solo);
+        block.set("events_solo_inserts", event == Event::Solo { inserts: true });
+        block.set("events_solo_context", context);
+        for (port, value) in [("context_id", context), ("number", number), ("corner", corner)] {
+            block.set(port, value);
+        }
+        let (refuses, is_beyond, refused_number, refused_vertex, has_room) = refused;
+        block.set("refuses", refuses);
+        block.set("is_beyond", is_beyond);
+        block.set("refused_number", refused_number);
+        block.set("refused_vertex", refused_vertex);
+        block.set("has_room", has_room);
+        block.settle();
+
+        if committed.is_some() && runs {
+            due.push_back(done);
+        }
+        let ends = event != Event::Nothing;
+        let is_early = ends && event != Event::HandsOver;
+        let part = match event {
+            Event::Duplicate => Some((number, DUPLICATE, corner)),
+            Event::Solo { inserts: true } => Some((last[0], 0, last[1])),
+            Event::Solo { inserts: false } => Some((last[0], DUPLICATE, last[2])),
+            Event::Nothing | Event::HandsOver => due.front().map(|&[number, vertex]| (number, 0, vertex)),
+        };
+        let is_noted = part.is_none() && refuses && has_room;
+        let refusal = (refused_number, if is_beyond { FULL } else { IN_USE }, refused_vertex);
+        let part = part.or_else(|| is_noted.then_some(refusal));
+        if !reset {
+            block.expect("is_noted", is_noted);
+            block.expect("ends_valid", ends);
+            block.expect("came_valid", runs && part.is_some());
+            if let Some((number, outcome, vertex)) = part {
+                block.expect("came_part_number", number);
+                block.expect("came_part_finding_outcome", outcome);
+                let port = if outcome == FULL { "came_part_finding_w0" } else { "came_part_finding_v0" };
+                let bits = if outcome == FULL { u64::MAX } else { 0x7fff };
+                block.expect(port, vertex & bits);
+                seen[[0, 5, 7, 8].iter().position(|&known| known == outcome).unwrap_or(0)] += 1;
+            }
+            if ends {
+                block.expect("ends_context", context);
+            }
+            let unmarked = match event {
+                Event::Duplicate => Some(vertex),
+                Event::Solo { inserts: false } => Some(last[1]),
+                _ => None,
+            };
+            let raised = match event {
+                Event::Solo { inserts: true } => Some(last[1]),
+                _ => committed.map(|_| done[1]),
+            };
+            for (port, id, wanted) in [("unmarks", "unmarked", unmarked), ("raises", "raised", raised)] {
+                block.expect(port, wanted.is_some());
+                if let Some(wanted) = wanted {
+                    block.expect(id, wanted);
+                }
+            }
+        }
+        block.edge();
+        if !is_early {
+            due.pop_front();
+        }
+        if let Some(context) = committed {
+            handed[context] = None;
+        }
+        if event == Event::HandsOver {
+            handed[context as usize] = Some([number, vertex]);
+        }
+        last = [number, vertex, corner];
+    }
+    assert!(seen.iter().all(|&count| count > 200), "parts by their outcome: {seen:?}");
+}

@@ -1,0 +1,346 @@
+//! Runs cores that change a mesh that stands beside their model, and compares every root port at every clock: random
+//! scripts of `InsertAs`, `Insert`, `Locate` and `Interpolate` on small grids, crossed with idle clocks and
+//! back-pressure. Parts and meshes are compared with the model by commands, which knows no clock.
+//!
+//! A host puts no vertex and no place twice into one run. Where a script does, the order of the items is the core's own.
+//! Then its parts say which items were done, and the model by commands does these alone: the meshes must be equal.
+
+use incircle_model::{ClockModel, CommandModel, Inputs};
+use incircle_protocol::{
+    command_word, Clear, Config, Located, Meshes, Opcode, Outcome, RunKind, CORE_COORD_BITS, FULL, SMALL, TINY,
+};
+use incircle_testbench::lockstep::{Fault, Job, Lockstep, Mismatch, Stalls, CHANGE_FAULTS};
+use incircle_testkit::{generate, Distribution, SplitMix64};
+use std::collections::BTreeSet;
+
+const CROWD: Config = Config { points: 64, ring: 6, contexts: 8, ..TINY };
+
+/// Items of an `InsertAs`: vertex and point.
+type Item = [u32; 2];
+
+/// A core with its model by clock, and the model by commands.
+struct Rig {
+    pair: Lockstep,
+    commands: CommandModel,
+    config: Config,
+    random: SplitMix64,
+    stalls: Stalls,
+    /// Whether a mesh stands, and the places that have been named since the last clear.
+    stands: bool,
+    places: Vec<u32>,
+    /// Parts by their outcome; in place 15, runs with a vertex or a place twice.
+    seen: [usize; 16],
+}
+
+impl Rig {
+    fn new(pair: Lockstep, config: Config, seed: u64) -> Self {
+        let commands = CommandModel::new(CORE_COORD_BITS, config.points, config.ring)
+            .unwrap_or_else(|error| panic!("{error}"))
+            .with_contexts(config.contexts)
+            .with_runs();
+        let (random, stalls) = (SplitMix64::new(seed), Stalls::ALL[seed as usize % 9]);
+        Self {
+            pair: pair.with_questions(),
+            commands,
+            config,
+            random,
+            stalls,
+            stands: false,
+            places: Vec::new(),
+            seen: [0; 16],
+        }
+    }
+
+    /// The answer of the model by commands.
+    fn expected(&mut self, words: &[u32]) -> Vec<u32> {
+        self.commands.send(words);
+        let mut answer = vec![0; 1 << 14];
+        let count = self.commands.receive(&mut answer);
+        assert!(count < answer.len());
+        answer.truncate(count);
+        answer
+    }
+
+    fn answer(&mut self, words: &[u32], length: usize) -> Result<Vec<u32>, Box<Mismatch>> {
+        let job = Job { commands: words.to_vec(), answers: length };
+        let random = &mut self.random;
+        Ok(self.pair.run(&job, self.stalls, &mut || random.next_u64())?)
+    }
+
+    /// A command whose answer is that of the model by commands, word for word.
+    fn same(&mut self, words: &[u32]) -> Result<Vec<u32>, Box<Mismatch>> {
+        let expected = self.expected(words);
+        let answer = self.answer(words, expected.len())?;
+        assert_eq!(answer, expected, "command {words:x?}");
+        Ok(answer)
+    }
+
+    fn clear(&mut self) -> Result<(), Box<Mismatch>> {
+        let contexts = self.random.below(u64::from(self.config.contexts) + 1) as u32;
+        let clear = Clear { contexts, meshes: Meshes::One, tag: self.random.bits(8) as u8 };
+        self.stands = false;
+        self.places.clear();
+        self.same(&[clear.word()]).map(drop)
+    }
+
+    fn insert(&mut self, points: &[u32]) -> Result<(), Box<Mismatch>> {
+        let report = self.same(&[&[command_word(Opcode::Insert), points.len() as u32], points].concat())?;
+        self.stands = report[6] > 0;
+        self.places.extend_from_slice(points);
+        Ok(())
+    }
+
+    /// An `InsertAs` of these items. If they are all different, the parts must be those of the model by commands.
+    fn insert_as(&mut self, items: &[Item]) -> Result<(), Box<Mismatch>> {
+        let run =
+            |items: &[Item]| [&[command_word(Opcode::InsertAs), items.len() as u32], items.as_flattened()].concat();
+        let length = 2 + if self.stands { 2 * items.len() } else { 0 };
+        let answer = self.answer(&run(items), length)?;
+        if !self.stands {
+            assert_eq!(answer, self.expected(&run(items)));
+            return Ok(());
+        }
+        let parts = sorted(&answer[2..], 2);
+        assert_eq!(parts.len(), items.len(), "each item has a part");
+        parts.iter().for_each(|part| self.seen[(part[0] >> 24) as usize] += 1);
+        let vertices: BTreeSet<u32> = items.iter().map(|item| item[0]).collect();
+        let places: BTreeSet<u32> = items.iter().map(|item| item[1]).collect();
+        if vertices.len() == items.len() && places.len() == items.len() {
+            let expected = self.expected(&run(items));
+            assert_eq!(answer[..2], expected[..2]);
+            assert_eq!(parts, sorted(&expected[2..], 2), "items {items:x?}");
+            return Ok(());
+        }
+        self.seen[15] += 1;
+        let is_done = |part: &[u32]| part[0] >> 24 == Outcome::Done as u32;
+        let done: Vec<Item> =
+            items.iter().zip(&parts).filter(|(_, part)| is_done(part)).map(|(item, _)| *item).collect();
+        let expected = self.expected(&run(&done));
+        assert!(expected[2..].chunks(2).all(is_done), "items that were done can be done");
+        Ok(())
+    }
+
+    fn ask(&mut self, kind: RunKind, places: &[u32]) -> Result<(), Box<Mismatch>> {
+        let words = [&[command_word(kind.opcode()), places.len() as u32], places].concat();
+        let expected = self.expected(&words);
+        let answer = self.answer(&words, expected.len())?;
+        assert_eq!(answer[..2], expected[..2]);
+        let outcomes = |parts: &[u32]| -> Vec<(u32, Vec<u32>)> {
+            let named = |part: &Vec<u32>| {
+                let mut vertices = Located::from_words(&part[1..]).vertices.to_vec();
+                vertices.sort_unstable();
+                (part[0] >> 24, vertices)
+            };
+            sorted(parts, kind.part_words()).iter().map(named).collect()
+        };
+        assert_eq!(outcomes(&answer[2..]), outcomes(&expected[2..]), "places {places:x?}");
+        Ok(())
+    }
+
+    /// Reads the mesh, and compares its triangles with those of the model by commands.
+    fn read(&mut self) -> Result<(), Box<Mismatch>> {
+        if !self.stands {
+            return Ok(());
+        }
+        let report = self.same(&[command_word(Opcode::Insert), 0])?;
+        let (vertices, records) = (report[3], report[6]);
+        assert_eq!(records, 2 * vertices - 2, "live records");
+        let read = [command_word(Opcode::Read), 0, records];
+        let expected = triangles(&self.expected(&read)[2..]);
+        let answer = self.answer(&read, 2 + 3 * records as usize)?;
+        assert!(answer[2..].iter().all(|word| word >> 31 == 0), "no lock is set");
+        assert_eq!(triangles(&answer[2..]), expected);
+        Ok(())
+    }
+
+    /// Up to this many items with vertices that are new for the most part, and places on a grid of this side.
+    fn items(&mut self, most: u64, side: u64) -> Vec<Item> {
+        let is_clean = !self.random.once_in(4);
+        let points = u64::from(self.config.points);
+        let (mut vertices, mut places) = (BTreeSet::new(), BTreeSet::new());
+        let mut items = Vec::new();
+        for _ in 0..self.random.below(most + 1) {
+            let vertex = match self.random.below(16) {
+                0 => self.random.bits(32),
+                1 => points + self.random.below(2),
+                2..=5 => self.random.below(points.min(20)),
+                _ => self.random.below(points),
+            } as u32;
+            // Often a place that has a vertex, so that items of all ends meet.
+            let known = self.random.below(3 * self.places.len() as u64 + 1) as usize;
+            let place = self.places.get(known).copied().unwrap_or_else(|| place(&mut self.random, side));
+            if !is_clean || vertices.insert(vertex) && places.insert(place) {
+                items.push([vertex, place]);
+            }
+        }
+        self.places.extend(items.iter().map(|item| item[1]));
+        items
+    }
+
+    /// A script about one mesh.
+    fn script(&mut self, points: u64, items: u64) -> Result<(), Box<Mismatch>> {
+        let side = [3, 4, 6, 11, 1 << 16][self.random.below(5) as usize];
+        self.clear()?;
+        for _ in 0..2 + self.random.below(5) {
+            match self.random.below(6) {
+                0 | 1 => {
+                    let points = self.random.below(points + 1);
+                    let points: BTreeSet<u32> = (0..points).map(|_| place(&mut self.random, side)).collect();
+                    let mut points: Vec<u32> = points.into_iter().collect();
+                    self.random.shuffle(&mut points);
+                    self.insert(&points)?;
+                }
+                2 => {
+                    let kind = if self.random.once_in(2) { RunKind::Locate } else { RunKind::Interpolate };
+                    let count = self.random.below(items + 1);
+                    let places: Vec<u32> = (0..count).map(|_| place(&mut self.random, side)).collect();
+                    self.ask(kind, &places)?;
+                }
+                _ => {
+                    let items = self.items(items, side);
+                    self.insert_as(&items)?;
+                }
+            }
+            if self.random.once_in(3) {
+                self.read()?;
+            }
+        }
+        self.read()
+    }
+}
+
+fn place(random: &mut SplitMix64, side: u64) -> u32 {
+    (random.below(side) | random.below(side) << 16) as u32
+}
+
+/// The parts in the order of their items.
+fn sorted(parts: &[u32], words: usize) -> Vec<Vec<u32>> {
+    let mut parts: Vec<Vec<u32>> = parts.chunks(words).map(<[u32]>::to_vec).collect();
+    parts.sort_unstable_by_key(|part| part[0] & 0xff_ffff);
+    let numbers = parts.iter().map(|part| part[0] & 0xff_ffff);
+    assert!(numbers.eq(0..parts.len() as u32), "each item has one part");
+    parts
+}
+
+/// The triangles of narrow records, each from its lowest vertex on.
+fn triangles(words: &[u32]) -> BTreeSet<[u32; 3]> {
+    let turned = |record: &[u32]| {
+        let mut v = [0, 1, 2].map(|k| record[k] & 0x7fff);
+        let lowest = (0..3).min_by_key(|&k| v[k]).unwrap_or(0);
+        v.rotate_left(lowest);
+        v
+    };
+    words.chunks(3).map(turned).collect()
+}
+
+fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, items: u64) {
+    let mut seen = [0; 16];
+    let mut rig = Rig::new(Lockstep::new(name, config, 81), config, 81);
+    for number in 0..scripts {
+        if number % 20 == 19 {
+            rig = Rig::new(Lockstep::new(name, config, number as u32), config, number as u64);
+        }
+        rig.stalls = Stalls::ALL[number % 9];
+        rig.script(points, items).unwrap_or_else(|mismatch| panic!("script {number}: {mismatch}"));
+        seen.iter_mut().zip(std::mem::take(&mut rig.seen)).for_each(|(sum, count)| *sum += count);
+    }
+    println!("{name}: outcomes {seen:?}");
+    for outcome in [Outcome::Done, Outcome::Duplicate, Outcome::InUse, Outcome::Full] {
+        assert!(seen[outcome as usize] > scripts / 20, "{outcome:?} comes up: {seen:?}");
+    }
+    assert!(seen[15] > scripts / 50, "runs with a vertex or a place twice: {seen:?}");
+}
+
+/// Runs scripts on a core with faults, until a port differs from the model. Returns the number of that script, and the
+/// mismatch.
+fn first_mismatch(pair: Lockstep, config: Config, scripts: usize) -> Option<(usize, Box<Mismatch>)> {
+    let mut rig = Rig::new(pair, config, 85);
+    (0..scripts).find_map(|number| {
+        rig.stalls = Stalls::ALL[number % 9];
+        rig.script(24, 60).err().map(|mismatch| (number, mismatch))
+    })
+}
+
+/// Runs scripts on a core without one of the rules of changes.
+#[test]
+fn cores_with_a_broken_block_of_changes_are_caught() {
+    let pair = |faults: &[&str]| Lockstep::faulty("faulty_core_changes", CROWD, 85, faults);
+    assert!(first_mismatch(pair(&[]), CROWD, 60).is_none(), "the sound core equals its model");
+    for Fault { name, .. } in CHANGE_FAULTS {
+        let found = first_mismatch(pair(&[name]), CROWD, 300);
+        let (number, mismatch) = found.unwrap_or_else(|| panic!("{name} is not caught"));
+        println!("{name}: caught in script {number}, at port {}", mismatch.port);
+    }
+}
+
+/// Number of clocks of these commands, until this many words of answers have been taken.
+fn clocks(model: &mut ClockModel, words: &[u32], answers: usize) -> usize {
+    let (mut rest, mut taken, mut clocks) = (words, 0, 0);
+    while !rest.is_empty() || taken < answers {
+        let outputs = model.outputs();
+        taken += if outputs.response_valid { 1 + usize::from(outputs.response_both) } else { 0 };
+        model.clock(Inputs {
+            reset: false,
+            command_valid: !rest.is_empty(),
+            command_data: rest.first().copied().unwrap_or(0),
+            response_ready: true,
+        });
+        if outputs.command_ready && !rest.is_empty() {
+            rest = &rest[1..];
+        }
+        clocks += 1;
+    }
+    clocks
+}
+
+/// Cycles of an `InsertAs` in a run that makes 8,000 points out of this many, in Hilbert order, dealt to 16 contexts.
+fn cycles_of_insert_as(mut model: ClockModel, first: usize) -> f64 {
+    let points = generate(Distribution::Uniform, 8_000, 16, 1).expect("a set of this size");
+    let word = |point: &[u32; 2]| point[0] | point[1] << 16;
+    let (standing, new) = points.split_at(first);
+    let mut insert = vec![Clear::default().word(), command_word(Opcode::Insert), first as u32];
+    insert.extend(standing.iter().map(word));
+    clocks(&mut model, &insert, 2 + 7);
+    let stored: Vec<incircle::Point> = new.iter().copied().map(incircle::Point::from).collect();
+    let order = incircle::order::hilbert(&stored);
+    let stretch = order.len() / 16;
+    let dealt: Vec<usize> = (0..16 * stretch).map(|item| order[item % 16 * stretch + item / 16] as usize).collect();
+    // The first questions bring the contexts to their stretches of the curve.
+    let mut ask = vec![command_word(Opcode::Locate), 16];
+    ask.extend(dealt[..16].iter().map(|&place| word(&new[place])));
+    clocks(&mut model, &ask, 2 + 4 * 16);
+    let mut run = vec![command_word(Opcode::InsertAs), dealt.len() as u32];
+    run.extend(dealt.iter().flat_map(|&place| [(first + place) as u32, word(&new[place])]));
+    clocks(&mut model, &run, 2 + 2 * dealt.len()) as f64 / dealt.len() as f64
+}
+
+#[test]
+fn insert_as_takes_fewer_than_17_cycles_an_item() {
+    let model = || ClockModel::new(FULL).unwrap_or_else(|error| panic!("{error}"));
+    for first in [6_000, 4_000] {
+        let core = cycles_of_insert_as(model().with_questions(), first);
+        let living = cycles_of_insert_as(model().with_runs(), first);
+        println!(
+            "from {first} points on: {core:.2} cycles an item, and {living:.2} with the model of the living engine"
+        );
+        assert!(
+            core < 17.0 && core < living + 1.5,
+            "{core:.2} cycles an item, where the living engine takes {living:.2}"
+        );
+    }
+}
+
+#[test]
+fn scripts_on_a_tiny_core() {
+    random_scripts("core_tiny_questions", TINY, 400, 6, 12);
+}
+
+#[test]
+fn scripts_on_a_crowded_core() {
+    random_scripts("core_crowd_questions", CROWD, 400, 24, 60);
+}
+
+#[test]
+fn scripts_on_a_small_core() {
+    random_scripts("core_small_questions", SMALL, 100, 120, 150);
+}
