@@ -222,17 +222,19 @@ impl Sides {
         if !is_sure {
             return Reach::Unknown;
         }
-        let mut answer = Reach::Within;
+        let (mut is_within, mut is_beyond) = (true, false);
         for axis in 0..2 {
             for (line, outward) in [(self.low[axis], -1.0), (self.high[axis], 1.0)] {
-                match triangle.reach_line(line, axis, outward) {
-                    Reach::Within => {}
-                    Reach::Beyond => return Reach::Beyond,
-                    Reach::Unknown => answer = Reach::Unknown,
-                }
+                let [within, beyond] = triangle.beside_line(line, axis, outward);
+                is_within &= within;
+                is_beyond |= beyond;
             }
         }
-        answer
+        match (is_within, is_beyond) {
+            (_, true) => Reach::Beyond,
+            (true, _) => Reach::Within,
+            _ => Reach::Unknown,
+        }
     }
 
     /// Whether no side is there, because the region is the whole plane.
@@ -272,12 +274,11 @@ impl Sides {
 }
 
 impl Rounded {
-    /// The position of the disc beside one line, as far as rounding allows an answer. `outward` is 1 if the region lies
-    /// on the lower side of the line, else -1.
-    fn reach_line(&self, line: f64, axis: usize, outward: f64) -> Reach {
-        if line == f64::INFINITY * outward {
-            return Reach::Within;
-        }
+    /// Whether the disc is surely within one line, and whether it surely touches or crosses it. `outward` is 1 if the
+    /// region lies on the lower side of the line, else -1. There are no branches, because no processor predicts at which
+    /// side a triangle lies.
+    #[inline(always)]
+    fn beside_line(&self, line: f64, axis: usize, outward: f64) -> [bool; 2] {
         // The centre relative to `a`, turned towards the line; a clockwise triangle has all signs changed.
         let turn = if self.cross < 0.0 { -outward } else { outward };
         let (p, q) = (self.c[1 - axis] * self.squares[0], self.b[1 - axis] * self.squares[1]);
@@ -286,13 +287,10 @@ impl Rounded {
         let gap = 2.0 * distance * self.cross.abs() - turn * toward;
         let error = 16.0 * UNIT * (2.0 * distance.abs() * self.magnitude + p.abs() + q.abs());
         let (least, most) = (gap - error, gap + error);
-        if least > 0.0 && least * least * LESS > self.product {
-            Reach::Within
-        } else if most < 0.0 || most * most * MORE < self.product {
-            Reach::Beyond
-        } else {
-            Reach::Unknown
-        }
+        // Beside a line that is infinitely far away, `least` is not a number, and `most` is infinite.
+        let is_far = line == f64::INFINITY * outward;
+        let within = is_far | ((least > 0.0) & (least * least * LESS > self.product));
+        [within, !within & ((most < 0.0) | (most * most * MORE < self.product))]
     }
 }
 

@@ -20,6 +20,7 @@
 
 mod guarded;
 mod join;
+mod open;
 mod rings;
 mod solved;
 #[cfg(test)]
