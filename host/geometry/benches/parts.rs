@@ -9,7 +9,8 @@
 //! The table has a row for each size of part, with the least time of all runs in ns a point:
 //! - `cut`: `Parts::divide`, which orders the points and takes duplicates out.
 //! - `finals`: `Parts::solved` for all parts, which finds the final triangles and makes half-edges of the others.
-//! - `join`: `Parts::join`, which also sorts all triangles. In the last row all points are one part, so this is the sorting.
+//! - `join`: `Parts::join`, which also sorts all triangles. In the last row all points are one part, so nearly all of
+//!   this is the sorting.
 //! - `border`: the points at seams, in per cent of all points.
 //!
 //! The joined mesh is compared with that of `cpu::triangulate`.

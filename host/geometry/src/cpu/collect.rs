@@ -75,7 +75,8 @@ pub(super) struct Known<'a> {
     pub(super) ids: &'a [u32],
 }
 
-/// All `count` triangles of a mesh of which some are known already, in lists of any lengths; see [`triangles`]. Returns `None` if the edges and the lists give another number of triangles.
+/// All `count` triangles of a mesh of which some are known already, in lists of any lengths; see [`triangles`]. Returns
+/// `None` if the edges and the lists give another number of triangles.
 pub(super) fn triangles_with(
     halves: Vec<Half>,
     ids: &[u32],

@@ -222,19 +222,17 @@ impl Sides {
         if !is_sure {
             return Reach::Unknown;
         }
-        let (mut is_within, mut is_beyond) = (true, false);
+        let mut answer = Reach::Within;
         for axis in 0..2 {
             for (line, outward) in [(self.low[axis], -1.0), (self.high[axis], 1.0)] {
-                let [within, beyond] = triangle.beside_line(line, axis, outward);
-                is_within &= within;
-                is_beyond |= beyond;
+                match triangle.reach_line(line, axis, outward) {
+                    Reach::Within => {}
+                    Reach::Beyond => return Reach::Beyond,
+                    Reach::Unknown => answer = Reach::Unknown,
+                }
             }
         }
-        match (is_within, is_beyond) {
-            (_, true) => Reach::Beyond,
-            (true, _) => Reach::Within,
-            _ => Reach::Unknown,
-        }
+        answer
     }
 
     /// Whether no side is there, because the region is the whole plane.
@@ -274,11 +272,12 @@ impl Sides {
 }
 
 impl Rounded {
-    /// Whether the disc is surely within one line, and whether it surely touches or crosses it. `outward` is 1 if the
-    /// region lies on the lower side of the line, else -1. There are no branches, because no processor predicts at which
-    /// side a triangle lies.
-    #[inline(always)]
-    fn beside_line(&self, line: f64, axis: usize, outward: f64) -> [bool; 2] {
+    /// The position of the disc beside one line, as far as rounding allows an answer. `outward` is 1 if the region lies
+    /// on the lower side of the line, else -1.
+    fn reach_line(&self, line: f64, axis: usize, outward: f64) -> Reach {
+        if line == f64::INFINITY * outward {
+            return Reach::Within;
+        }
         // The centre relative to `a`, turned towards the line; a clockwise triangle has all signs changed.
         let turn = if self.cross < 0.0 { -outward } else { outward };
         let (p, q) = (self.c[1 - axis] * self.squares[0], self.b[1 - axis] * self.squares[1]);
@@ -287,10 +286,13 @@ impl Rounded {
         let gap = 2.0 * distance * self.cross.abs() - turn * toward;
         let error = 16.0 * UNIT * (2.0 * distance.abs() * self.magnitude + p.abs() + q.abs());
         let (least, most) = (gap - error, gap + error);
-        // Beside a line that is infinitely far away, `least` is not a number, and `most` is infinite.
-        let is_far = line == f64::INFINITY * outward;
-        let within = is_far | ((least > 0.0) & (least * least * LESS > self.product));
-        [within, !within & ((most < 0.0) | (most * most * MORE < self.product))]
+        if least > 0.0 && least * least * LESS > self.product {
+            Reach::Within
+        } else if most < 0.0 || most * most * MORE < self.product {
+            Reach::Beyond
+        } else {
+            Reach::Unknown
+        }
     }
 }
 

@@ -5,16 +5,16 @@
 //! its corners is *shallow*: near a side, or on the hull. All other vertices are *deep*.
 //!
 //! **Why the others are final.** Let `T` be an open triangle, and `q` a point of its closed disc on a side of the cell.
-//! All points of the part lie strictly inside the cell, so `q` lies outside the hull. Draw a line from a place in `T` to
-//! `q` that meets no vertex. It runs through triangles of the part until it crosses an edge of the hull.
+//! All points of the part lie strictly inside the cell, so `q` lies outside the hull. Draw a line from a place in `T`
+//! to `q` that meets no vertex. It runs through triangles of the part until it crosses an edge of the hull.
 //! - *All of these triangles are open.* Let the line cross the edge between triangle `A` and the next one, `B`. The
 //!   power of a place with respect to the circle of `A`, less its power with respect to the circle of `B`, is a linear
-//!   function of the place. This function is 0 on the line of the edge, and not negative at the far corner of `B`, which
-//!   is on the circle of `B` and not inside that of `A`. So it is not negative on the whole side of `B`, where `q` lies:
-//!   if `q` is in the closed disc of `A`, it is in that of `B`.
+//!   function of the place. This function is 0 on the line of the edge, and not negative at the far corner of `B`,
+//!   which is on the circle of `B` and not inside that of `A`. So it is not negative on the whole side of `B`, where
+//!   `q` lies: if `q` is in the closed disc of `A`, it is in that of `B`.
 //! - *So one triangle along the line is tested.* The edge of the hull has shallow ends. If `T` has only deep corners,
-//!   there is a first triangle along the line that has a shallow one. This triangle is open, and shares an edge with two
-//!   deep ends with the triangle before it.
+//!   there is a first triangle along the line that has a shallow one. This triangle is open, and shares an edge with
+//!   two deep ends with the triangle before it.
 //!
 //! So if no open triangle that was tested has two deep corners, all open triangles were tested. Else these corners are
 //! called shallow from then on, and the triangles around them are tested as well. Sets whose open triangles reach far
@@ -36,8 +36,8 @@ const SHALLOW: u8 = 1;
 const NEW: u8 = 2;
 /// Rounds before all triangles are tested. The rounds of evenly spread points are fewer.
 const ROUNDS: usize = 4;
-/// The depth up to which vertices are shallow from the start, in mean distances of neighbours. A larger depth means more
-/// tests, and a smaller one more rounds.
+/// The depth up to which vertices are shallow from the start, in mean distances of neighbours. A larger depth means
+/// more tests, and a smaller one more rounds.
 const DEPTH: u64 = 3;
 
 /// Takes the triangles that are not final out of the list. The others stay there, in any order.

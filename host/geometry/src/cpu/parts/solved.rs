@@ -45,7 +45,8 @@ impl Parts {
     /// [`Mesh`](crate::Mesh). The triangles may stand in any order. Several threads may call this at once, each for
     /// other parts.
     ///
-    /// O(n) for a part of n points: a test for each triangle, and half-edges for about `5.5 sqrt(n)` vertices.
+    /// O(n) for a part of n points: a look at each triangle, a test for those near the sides of the part, and
+    /// half-edges for about `5.5 sqrt(n)` vertices.
     ///
     /// # Errors
     /// The mesh cannot be that of the part. This finds only what would be in the way of the join: callers that do not
