@@ -111,10 +111,7 @@ impl Links {
         let (smaller, larger) = (from.min(to), from.max(to));
         let hash = (u64::from(smaller) << u32::BITS | u64::from(larger)).wrapping_mul(GOLDEN);
         let mut place = (hash >> self.shift) as usize;
-        loop {
-            let Some(pair) = self.pairs[place].checked_sub(TAKEN) else {
-                break;
-            };
+        while let Some(pair) = self.pairs[place].checked_sub(TAKEN) {
             let [leading, back] = [pair, pair + 1].map(|e| self.halves[e as usize].end);
             if (leading == larger) & (back == smaller) {
                 return pair + u32::from(to < from);
