@@ -3,12 +3,14 @@
 //! ```text
 //! cargo bench -p incircle-geometry --bench parts                # a million points of 16 bits, 9 runs, one thread
 //! cargo bench -p incircle-geometry --bench parts -- 100000 5    # other numbers of points and runs
+//! cargo bench -p incircle-geometry --bench parts -- 1000000 9 1024    # parts of one size only
 //! ```
 //!
 //! The table has a row for each size of part, with the least time of all runs in ns a point:
 //! - `cut`: `Parts::divide`, which orders the points and takes duplicates out.
 //! - `finals`: `Parts::solved` for all parts, which finds the final triangles and makes half-edges of the others.
-//! - `join`: `Parts::join`, which also sorts all triangles.
+//! - `join`: `Parts::join`, which also sorts all triangles. In the last row all points are one part, so nearly all of
+//!   this is the sorting.
 //! - `border`: the points at seams, in per cent of all points.
 //!
 //! The joined mesh is compared with that of `cpu::triangulate`.
@@ -60,8 +62,9 @@ fn main() -> ExitCode {
     let made = generate(Distribution::Uniform, count, BITS, 1).expect("an even set");
     let points: Vec<Point> = made.into_iter().map(Point::from).collect();
     let right = mesh_of(points.clone()).triangles;
+    let sizes: Vec<usize> = numbers.collect();
     println!("{:>8} {:>8} {:>8} {:>8} {:>8}", "most", "cut", "finals", "join", "border");
-    for most in MOST {
+    for most in if sizes.is_empty() { MOST.into_iter().chain([count]).collect() } else { sizes } {
         let (mut least, mut share) = ([f64::INFINITY; 3], 0.0);
         for _ in 0..runs {
             let (times, border, triangles) = run(&points, most);

@@ -16,6 +16,7 @@ use bytemuck::Zeroable;
 use super::buckets::{bucket_ends, items_of, runs, Bucketed, CHUNK, MOST_BUCKETS_BITS};
 use super::edges::{is_used, Half, Halves};
 use super::parallel::in_parallel;
+use crate::mesh::smallest_first;
 use crate::pages;
 
 /// Marks, in the `end` of a half-edge, that the outside lies to the left of the half-edge.
@@ -65,21 +66,30 @@ pub(super) fn triangles(halves: Vec<Half>, ids: &[u32], points: usize, count: us
     found.unwrap_or_default()
 }
 
-/// All `count` triangles of a mesh of which these `finals` are known already, in lists of any lengths; see
-/// [`triangles`]. Returns `None` if the edges and the lists give another number of triangles.
+/// Triangles that are known already.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'a> {
+    /// The corners of each triangle, as places in `ids`, the first of them in any place.
+    pub(super) triangles: &'a [[u32; 3]],
+    /// The input indices of the vertices.
+    pub(super) ids: &'a [u32],
+}
+
+/// All `count` triangles of a mesh of which some are known already, in lists of any lengths; see [`triangles`]. Returns
+/// `None` if the edges and the lists give another number of triangles.
 pub(super) fn triangles_with(
     halves: Vec<Half>,
     ids: &[u32],
-    finals: &[Vec<[u32; 3]>],
+    known: &[Known<'_>],
     points: usize,
     count: usize,
     threads: usize,
 ) -> Option<Vec<[u32; 3]>> {
     let buckets = Buckets::of(points, threads);
     if buckets.fit_a_word() {
-        buckets.sorted::<Packed>(halves, ids, finals, count, threads)
+        buckets.sorted::<Packed>(halves, ids, known, count, threads)
     } else {
-        buckets.sorted::<[u32; 3]>(halves, ids, finals, count, threads)
+        buckets.sorted::<[u32; 3]>(halves, ids, known, count, threads)
     }
 }
 
@@ -202,14 +212,21 @@ impl Buckets {
         self,
         halves: Vec<Half>,
         ids: &[u32],
-        finals: &[Vec<[u32; 3]>],
+        known: &[Known<'_>],
         count: usize,
         threads: usize,
     ) -> Option<Vec<[u32; 3]>> {
+        // Each thread has a share of the half-edges and a share of the lists.
         let own = (halves.len() / 2).div_ceil(threads).max(1) * 2;
-        let mut found: Vec<Bucketed<T>> =
-            in_parallel(halves.chunks(own), |own| self.find(&halves, own, ids, count / threads));
-        found.extend(in_parallel(finals.chunks(finals.len().div_ceil(threads).max(1)), |own| self.distribute(own)));
+        let shares = |k: usize| halves.chunks(own).nth(k).unwrap_or_default();
+        let lists = known.len().div_ceil(threads).max(1);
+        let tasks = (0..threads).map(|k| (shares(k), known.chunks(lists).nth(k).unwrap_or_default()));
+        let found: Vec<Bucketed<T>> = in_parallel(tasks, |(own, known)| {
+            let mut bucketed = Bucketed::new(self.count, count / threads);
+            self.distribute(known, &mut bucketed);
+            self.find(&halves, own, ids, &mut bucketed);
+            bucketed
+        });
         let ends = bucket_ends(&found, self.count);
         if ends.last() != Some(&count) {
             return None;
@@ -229,17 +246,17 @@ impl Buckets {
     }
 
     /// Distributes triangles that are known already.
-    fn distribute<T: Triangle>(self, lists: &[Vec<[u32; 3]>]) -> Bucketed<T> {
-        let mut bucketed = Bucketed::new(self.count, lists.iter().map(Vec::len).sum());
-        for &triangle in lists.iter().flatten() {
-            bucketed.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
+    fn distribute<T: Triangle>(self, known: &[Known<'_>], bucketed: &mut Bucketed<T>) {
+        for &Known { triangles, ids } in known {
+            for &corners in triangles {
+                let triangle = smallest_first(corners.map(|v| ids[v as usize]));
+                bucketed.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
+            }
         }
-        bucketed
     }
 
-    /// Distributes the triangles that the edges in a range of the half-edges name, about `expected` of them.
-    fn find<T: Triangle>(self, halves: &[Half], own: &[Half], ids: &[u32], expected: usize) -> Bucketed<T> {
-        let mut bucketed = Bucketed::new(self.count, expected);
+    /// Distributes the triangles that the edges in a range of the half-edges name.
+    fn find<T: Triangle>(self, halves: &[Half], own: &[Half], ids: &[u32], bucketed: &mut Bucketed<T>) {
         let mut edges = [Edge::default(); BLOCK];
         let mut triangles = [[0; 3]; BLOCK];
         for block in own.chunks(2 * BLOCK) {
@@ -260,7 +277,6 @@ impl Buckets {
                 bucketed.put((triangle[0] >> self.bits) as usize, T::of(triangle, self));
             }
         }
-        bucketed
     }
 
     /// Sorts a run of buckets into its range of the list.

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 use core::num::NonZeroUsize;
 use core::ops::Range;
 
-use super::super::collect;
+use super::super::collect::{self, Known};
 use super::super::conquer::Waiting;
 use super::super::edges::{is_used, Edges, Half, Halves, HALVES};
 use super::super::merge::Part;
@@ -32,7 +32,7 @@ struct Borders {
 }
 
 impl Borders {
-    fn of(solved: &[SolvedPart]) -> Self {
+    fn of(solved: &[SolvedPart], own: &Parts) -> Self {
         let count = solved.iter().map(SolvedPart::border).sum();
         let mut all = Self {
             sites: pages::with_room(count),
@@ -42,15 +42,17 @@ impl Borders {
             parts: Vec::with_capacity(solved.len()),
             holes: Vec::new(),
         };
-        solved.iter().for_each(|part| all.add(part));
+        for (part, range) in solved.iter().zip(&own.ranges) {
+            all.ids.extend(part.vertices.iter().map(|&v| own.ids[range.start + v as usize]));
+            all.add(part);
+        }
         all
     }
 
-    fn add(&mut self, SolvedPart { sites, ids, rings, .. }: &SolvedPart) {
+    fn add(&mut self, SolvedPart { sites, rings, .. }: &SolvedPart) {
         let first = self.sites.len();
         let (vertex, by) = (first as u32, (HALVES * first) as u32);
         self.sites.extend_from_slice(sites);
-        self.ids.extend_from_slice(ids);
         self.ranges.push(first..self.sites.len());
         // The list is zero behind the half-edges of the part, which is the list of its unused pairs.
         for (slot, &Half { next, previous, end }) in self.halves[HALVES * first..].iter_mut().zip(&rings.halves) {
@@ -189,7 +191,7 @@ impl Parts {
             return Err(Unsound);
         }
         let threads = threads_for(self.points, threads).get();
-        let mut borders = Borders::of(&solved);
+        let mut borders = Borders::of(&solved, &self);
         let bits = u32::BITS - (self.far[0] | self.far[1]).leading_zeros();
         let hull = if bits <= NARROW_BITS {
             borders.join::<Narrow>(threads)
@@ -199,19 +201,20 @@ impl Parts {
             borders.join::<Widest>(threads)
         }?;
         let count = (2 * self.distinct()).checked_sub(2 + hull.len()).ok_or(Unsound)?;
-        let finals: Vec<Vec<[u32; 3]>> = solved.into_iter().map(|solved| solved.finals).collect();
+        let parts = solved.iter().zip(&self.ranges);
+        let finals: Vec<Known<'_>> =
+            parts.map(|(part, range)| Known { triangles: &part.finals, ids: &self.ids[range.clone()] }).collect();
         let Borders { halves, ids, .. } = borders;
         let triangles = collect::triangles_with(halves, &ids, &finals, self.points, count, threads).ok_or(Unsound)?;
         Ok(Connectivity { triangles, hull, duplicates: self.duplicates })
     }
 
-    /// Whether a solved part is one of this set: its border is some of the part's points, in their order.
+    /// Whether a solved part is one of this set: it has as many points, and its border is some of them, in their order.
     fn has(&self, solved: &SolvedPart) -> bool {
         self.range(solved.part).is_some_and(|range| {
-            let mut own = self.sites[range.clone()].iter().zip(&self.ids[range]);
-            let is_index = |&id: &u32| (id as usize) < self.points;
-            solved.sites.iter().zip(&solved.ids).all(|vertex| own.any(|own| own == vertex))
-                && solved.finals.as_flattened().iter().all(is_index)
+            let own = &self.sites[range];
+            let mut border = solved.vertices.iter().zip(&solved.sites);
+            own.len() == solved.count && border.all(|(&v, site)| own.get(v as usize) == Some(site))
         })
     }
 }

@@ -6,9 +6,9 @@
 //!
 //! Most triangles of a part need no join. A part lies in a cell of the quadtree, and no other point of the set is in
 //! that cell. A triangle whose closed circumscribed disc lies strictly inside the cell is *final*: no point of the set
-//! is inside its circle or on it, so the triangle belongs to the mesh of the whole set. Only the other triangles become
-//! half-edges (`rings`). The region that the final triangles cover is a *hole* among them: the merges go round it, and
-//! never remove one of its edges.
+//! is inside its circle or on it, so the triangle belongs to the mesh of the whole set. Only the other triangles, which
+//! `open` finds, become half-edges (`rings`). The region that the final triangles cover is a *hole* among them: the
+//! merges go round it, and never remove one of its edges.
 //!
 //! **Why a hole does no harm.** A merge removes an edge if the vertex behind the edge is inside a circle that is empty
 //! of all vertices before. Across a hole that vertex is not the corner of the final triangle but another vertex of the
@@ -20,6 +20,7 @@
 
 mod guarded;
 mod join;
+mod open;
 mod rings;
 mod solved;
 #[cfg(test)]

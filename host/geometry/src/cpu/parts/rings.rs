@@ -10,6 +10,8 @@ use super::Unsound;
 
 /// A half-edge, or a link, that is not known yet.
 const NONE: u32 = u32::MAX;
+/// The `next` of a half-edge that has the outside to its left, until its ring is closed.
+const OUTSIDE: u32 = u32::MAX - 1;
 
 /// The half-edges of a part.
 #[derive(Debug)]
@@ -24,13 +26,19 @@ pub(super) struct Rings {
 impl Rings {
     /// The half-edges of triangles that stand counter-clockwise, and of a counter-clockwise hull.
     pub(super) fn of(sites: &[Site], triangles: &[[u32; 3]], hull: &[u32]) -> Result<Self, Unsound> {
-        let mut links = Links::pair(sites.len(), triangles, hull)?;
-        links.turn_around(triangles);
-        links.close(sites);
-        let Links { halves, holes, numbers, .. } = links;
+        let mut links = Links::of(3 * triangles.len() + hull.len())?;
+        triangles.iter().try_for_each(|&corners| links.add_triangle(corners))?;
+        let after = hull.iter().cycle().skip(1);
+        let outer =
+            hull.iter().zip(after).map(|(&from, &to)| links.add_outside(to, from)).collect::<Result<Vec<_>, _>>()?;
+        // A plane graph on so many vertices has fewer edges.
+        if links.halves.len() >= HALVES * sites.len() {
+            return Err(Unsound);
+        }
+        let holes = links.close(sites);
+        let halves = links.halves;
         // The outer half of a hull edge leads back to the vertex that the inner half leaves.
-        let inner = &numbers[3 * triangles.len()..];
-        let leaving = |best: Option<usize>| best.and_then(|place| inner.get(place)).map_or(0, |outer| outer ^ 1);
+        let leaving = |best: Option<usize>| best.and_then(|place| outer.get(place)).map_or(0, |outer| outer ^ 1);
         let places = || 0..hull.len();
         let by_x = |place: &usize| sites[hull[*place] as usize];
         let by_y = |place: &usize| swapped(by_x(place));
@@ -75,81 +83,99 @@ fn swapped(site: Site) -> Site {
 /// Half-edges whose links around the vertices are being made.
 struct Links {
     halves: Vec<Half>,
-    holes: Vec<u32>,
-    /// The number of the half-edge `3 t + k` from corner `k` of triangle `t` to the next one, then that of the outer
-    /// half of each hull edge.
-    numbers: Vec<u32>,
+    /// A hash table with open addressing: for each edge its pair, plus [`TAKEN`]. It is at most half full.
+    pairs: Vec<u32>,
+    /// The bits of a hash below those that are a place in the table.
+    shift: u32,
 }
 
-/// A side of a triangle or of the outside. The upper 32 bits are the larger of its ends. The lower ones are its number
-/// in the list of all sides, doubled, plus 1 if the side leads to the smaller end. One word is quicker to sort than
-/// two.
-type Side = u64;
-
-/// The larger end of a side.
-fn larger_end(side: Side) -> u32 {
-    (side >> u32::BITS) as u32
-}
+/// The difference between a pair and its entry in the table, whose empty places are zero.
+const TAKEN: u32 = 2;
 
 impl Links {
-    /// Gives a pair of half-edges to each edge. An edge that has a side with no triangle lies at a hole.
-    fn pair(vertices: usize, triangles: &[[u32; 3]], hull: &[u32]) -> Result<Self, Unsound> {
-        let sides = Sides::of(vertices, triangles, hull)?;
-        let mut links = Self { halves: Vec::new(), holes: Vec::new(), numbers: vec![NONE; sides.list.len()] };
-        links.halves.reserve(sides.list.len() + 2);
-        for smaller in 0..vertices {
-            for own in sides.at(smaller).chunk_by(|&one, &other| larger_end(one) == larger_end(other)) {
-                links.add_edge(smaller as u32, own)?;
-            }
-        }
-        // A plane graph on so many vertices has fewer edges.
-        if links.halves.len() >= HALVES * vertices {
+    /// Empty lists with room for the edges of so many sides of triangles and of the outside.
+    fn of(sides: usize) -> Result<Self, Unsound> {
+        if sides >= OUTSIDE as usize / 4 {
             return Err(Unsound);
         }
-        Ok(links)
+        let places = (2 * sides).next_power_of_two().max(2);
+        let shift = u64::BITS - places.ilog2();
+        Ok(Self { halves: Vec::with_capacity(sides + 2), pairs: vec![0; places], shift })
     }
 
-    /// Makes the pair of an edge from its sides, of which there are one or two.
-    fn add_edge(&mut self, smaller: u32, sides: &[Side]) -> Result<(), Unsound> {
+    /// The half-edge between two vertices. If it is not there yet, this function makes its pair.
+    #[inline(always)]
+    fn half_between(&mut self, from: u32, to: u32) -> u32 {
+        // The golden ratio, as a fraction of 2^64, spreads edges that have an end in common.
+        const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+        let (smaller, larger) = (from.min(to), from.max(to));
+        let hash = (u64::from(smaller) << u32::BITS | u64::from(larger)).wrapping_mul(GOLDEN);
+        let mut place = (hash >> self.shift) as usize;
+        while let Some(pair) = self.pairs[place].checked_sub(TAKEN) {
+            let [leading, back] = [pair, pair + 1].map(|e| self.halves[e as usize].end);
+            if (leading == larger) & (back == smaller) {
+                return pair + u32::from(to < from);
+            }
+            place = (place + 1) & (self.pairs.len() - 1);
+        }
         let pair = self.halves.len() as u32;
-        let larger = larger_end(sides[0]);
-        let half = |end| Half { next: NONE, previous: NONE, end };
-        self.halves.extend([half(larger), half(smaller)]);
-        let number = |side: Side| pair + (side as u32 & 1);
-        match sides {
-            [only] => self.holes.push(number(*only) ^ 1),
-            [one, other] if number(*one) != number(*other) => {}
-            _ => return Err(Unsound),
+        self.pairs[place] = pair + TAKEN;
+        self.halves.extend([larger, smaller].map(|end| Half { next: NONE, previous: NONE, end }));
+        pair + u32::from(to < from)
+    }
+
+    /// Links the half-edges around the corners of a triangle. Fails if it names a vertex twice, or if another triangle
+    /// has one of its sides.
+    #[inline(always)]
+    fn add_triangle(&mut self, [a, b, c]: [u32; 3]) -> Result<(), Unsound> {
+        if (a == b) | (b == c) | (c == a) {
+            return Err(Unsound);
         }
-        for &side in sides {
-            self.numbers[side as u32 as usize / 2] = number(side);
+        let [ab, bc, ca] = [[a, b], [b, c], [c, a]].map(|[from, to]| self.half_between(from, to));
+        let next = |e: u32| self.halves[e as usize].next;
+        if next(ab) & next(bc) & next(ca) != NONE {
+            return Err(Unsound);
         }
+        self.link(ab, ca ^ 1);
+        self.link(bc, ab ^ 1);
+        self.link(ca, bc ^ 1);
         Ok(())
     }
 
-    /// Links the half-edges around the corners of each triangle.
-    fn turn_around(&mut self, triangles: &[[u32; 3]]) {
-        for first in (0..3 * triangles.len()).step_by(3) {
-            let [ab, bc, ca] = [0, 1, 2].map(|k| self.numbers[first + k]);
-            self.link(ab, ca ^ 1);
-            self.link(bc, ab ^ 1);
-            self.link(ca, bc ^ 1);
+    /// Marks the half-edge between two vertices, which has the outside to its left. Fails if it has a triangle there.
+    fn add_outside(&mut self, from: u32, to: u32) -> Result<u32, Unsound> {
+        if from == to {
+            return Err(Unsound);
+        }
+        let e = self.half_between(from, to);
+        let known = core::mem::replace(&mut self.halves[e as usize].next, OUTSIDE);
+        if known == NONE {
+            Ok(e)
+        } else {
+            Err(Unsound)
         }
     }
 
     /// Makes `after` the half-edge that follows `e` counter-clockwise around their origin.
+    #[inline(always)]
     fn link(&mut self, e: u32, after: u32) {
         self.halves[e as usize].next = after;
         self.halves[after as usize].previous = e;
     }
 
     /// Closes the rings. The triangles around a vertex leave one or more arcs of half-edges, with the outside or holes
-    /// between them. No half-edge has two followers, so an arc that has a first half-edge has a last one.
-    fn close(&mut self, sites: &[Site]) {
+    /// between them. No half-edge has two followers, so an arc that has a first half-edge has a last one. Returns the
+    /// half-edges that have neither a triangle nor the outside to their left, but a hole.
+    fn close(&mut self, sites: &[Site]) -> Vec<u32> {
+        let mut holes = Vec::with_capacity(sites.len());
         // The first half-edges of the arcs at a vertex form a list, which begins in `newest`.
         let (mut newest, mut before) = (vec![NONE; sites.len()], vec![NONE; self.halves.len()]);
         for e in 0..self.halves.len() as u32 {
-            if self.halves[e as usize].previous == NONE {
+            let Half { next, previous, .. } = self.halves[e as usize];
+            if next == NONE {
+                holes.push(e);
+            }
+            if previous == NONE {
                 let origin = self.halves[(e ^ 1) as usize].end as usize;
                 before[e as usize] = core::mem::replace(&mut newest[origin], e);
             }
@@ -167,78 +193,25 @@ impl Links {
             }
             for (place, &first) in arcs.iter().enumerate() {
                 let mut last = first;
-                while self.halves[last as usize].next != NONE {
+                while self.halves[last as usize].next < OUTSIDE {
                     last = self.halves[last as usize].next;
                 }
                 self.link(last, arcs[(place + 1) % arcs.len()]);
             }
         }
-    }
-}
-
-/// All sides of triangles and of the outside, by the smaller of their ends.
-struct Sides {
-    list: Vec<Side>,
-    /// For each vertex, the end of its sides in the list.
-    ends: Vec<u32>,
-}
-
-impl Sides {
-    /// Lists the sides, sorted. Fails if a side names a vertex that does not exist, or one vertex twice.
-    fn of(vertices: usize, triangles: &[[u32; 3]], hull: &[u32]) -> Result<Self, Unsound> {
-        let inner = triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
-        let after = hull.iter().cycle().skip(1);
-        let outer = hull.iter().zip(after).map(|(&from, &to)| [to, from]);
-        let sides = || inner.clone().chain(outer.clone());
-        let mut ends = vec![0u32; vertices];
-        let mut count = 0;
-        for [from, to] in sides() {
-            let smaller = from.min(to) as usize;
-            if from == to || from.max(to) as usize >= vertices {
-                return Err(Unsound);
-            }
-            ends[smaller] += 1;
-            count += 1;
-        }
-        if count >= NONE as usize / 2 {
-            return Err(Unsound);
-        }
-        let mut start = 0;
-        for end in &mut ends {
-            start += core::mem::replace(end, start);
-        }
-        let mut list = vec![0; count];
-        for ([from, to], number) in sides().zip(0u32..) {
-            let end = &mut ends[from.min(to) as usize];
-            list[*end as usize] = Side::from(from.max(to)) << u32::BITS | Side::from(2 * number + u32::from(to < from));
-            *end += 1;
-        }
-        let mut all = Self { list, ends };
-        for v in 0..vertices {
-            let own = all.range(v);
-            all.list[own].sort_unstable();
-        }
-        Ok(all)
-    }
-
-    fn range(&self, smaller: usize) -> core::ops::Range<usize> {
-        let start = smaller.checked_sub(1).map_or(0, |before| self.ends[before]);
-        start as usize..self.ends[smaller] as usize
-    }
-
-    fn at(&self, smaller: usize) -> &[Side] {
-        &self.list[self.range(smaller)]
+        holes
     }
 }
 
 /// Compares the directions from `origin` to two sites, counter-clockwise from that of growing x.
 fn by_angle(origin: Site, one: Site, other: Site) -> core::cmp::Ordering {
     let seen = |site: Site| {
-        let minus = |a: u32, b: u32| i128::from(a) - i128::from(b);
+        let minus = |a: u32, b: u32| i64::from(a) - i64::from(b);
         [minus(site.x(), origin.x()), minus(site.y(), origin.y())]
     };
-    let is_second_half = |[x, y]: [i128; 2]| y < 0 || (y == 0 && x < 0);
+    let is_second_half = |[x, y]: [i64; 2]| y < 0 || (y == 0 && x < 0);
     let (one, other) = (seen(one), seen(other));
-    let cross = one[0] * other[1] - one[1] * other[0];
+    let product = |a: i64, b: i64| i128::from(a) * i128::from(b);
+    let cross = product(one[0], other[1]) - product(one[1], other[0]);
     is_second_half(one).cmp(&is_second_half(other)).then(0.cmp(&cross))
 }

@@ -5,11 +5,9 @@ use alloc::vec::Vec;
 
 use super::super::triangulator::is_collinear;
 use super::super::view::{Integers, Site, Widest};
+use super::open::take_open;
 use super::rings::Rings;
 use super::{Parts, Unsound};
-use crate::mesh::smallest_first;
-use crate::point::Point;
-use crate::tiles::reach::{Reach, TilePoint};
 
 /// A vertex that is not at the border.
 const INSIDE: u32 = u32::MAX;
@@ -19,12 +17,14 @@ const INSIDE: u32 = u32::MAX;
 #[derive(Debug)]
 pub struct SolvedPart {
     pub(super) part: usize,
+    /// The number of points of the part.
+    pub(super) count: usize,
     /// The vertices of the border, along the curve: corners of triangles that are not final, and the hull.
+    pub(super) vertices: Vec<u32>,
+    /// The place of each vertex of the border.
     pub(super) sites: Vec<Site>,
-    /// The input index of each vertex of the border.
-    pub(super) ids: Vec<u32>,
     pub(super) rings: Rings,
-    /// The final triangles by input index, smallest index first.
+    /// The final triangles, by the indices of the part.
     pub(super) finals: Vec<[u32; 3]>,
 }
 
@@ -45,16 +45,16 @@ impl Parts {
     /// [`Mesh`](crate::Mesh). The triangles may stand in any order. Several threads may call this at once, each for
     /// other parts.
     ///
-    /// O(n) for a part of n points: a test for each triangle, and half-edges for about `5.5 sqrt(n)` vertices.
+    /// O(n) for a part of n points: a look at each triangle, a test for those near the sides of the part, and
+    /// half-edges for about `5.5 sqrt(n)` vertices.
     ///
     /// # Errors
     /// The mesh cannot be that of the part. This finds only what would be in the way of the join: callers that do not
     /// trust the source of the mesh call [`Mesh::verify`](crate::Mesh::verify) before.
     pub fn solved(&self, part: usize, mut triangles: Vec<[u32; 3]>, hull: &[u32]) -> Result<SolvedPart, Unsound> {
         let range = self.range(part).ok_or(Unsound)?;
-        let (sites, ids) = (&self.sites[range.clone()], &self.ids[range.clone()]);
-        let largest = |list: &[u32]| list.iter().fold(0, |largest, &v| largest.max(v)) as usize;
-        if hull.is_empty() || largest(hull).max(largest(triangles.as_flattened())) >= sites.len() {
+        let sites = &self.sites[range.clone()];
+        if hull.is_empty() || hull.iter().any(|&v| v as usize >= sites.len()) {
             return Err(Unsound);
         }
         let is_line = triangles.is_empty();
@@ -62,29 +62,15 @@ impl Parts {
         if is_line && (hull.len() != sites.len() || !is_in_order() || !is_collinear::<Integers<Widest>>(sites)) {
             return Err(Unsound);
         }
-        let point = |v: u32| Point::new(sites[v as usize].x(), sites[v as usize].y());
-        let sides = Point::sides(&self.region(&range));
-        let mut open = Vec::new();
-        // The final triangles stay in their list, whose memory the processor has in its cache.
-        let mut finals = 0;
-        for place in 0..triangles.len() {
-            let corners = triangles[place];
-            if Point::reach(&sides, corners.map(point)) == Reach::Within {
-                triangles[finals] = smallest_first(corners.map(|v| ids[v as usize]));
-                finals += 1;
-            } else {
-                open.push(corners);
-            }
-        }
-        triangles.truncate(finals);
-        let border = Border::of(&open, hull, sites.len());
-        let own = border.vertices.iter().map(|&v| v as usize);
-        let (border_sites, border_ids): (Vec<Site>, Vec<u32>) = own.map(|v| (sites[v], ids[v])).unzip();
-        open.iter_mut().flatten().for_each(|v| *v = border.numbers[*v as usize]);
-        let hull: Vec<u32> = hull.iter().map(|&v| border.numbers[v as usize]).collect();
-        let rings =
-            if is_line { Rings::of_line(&border_sites, &hull) } else { Rings::of(&border_sites, &open, &hull)? };
-        Ok(SolvedPart { part, sites: border_sites, ids: border_ids, rings, finals: triangles })
+        // The final triangles stay in their list, and most of them are not written again.
+        let mut open = take_open(&mut triangles, hull, sites, &self.region(&range), self.far)?;
+        let Border { vertices, numbers } = Border::of(&open, hull, sites.len());
+        open.iter_mut().flatten().for_each(|v| *v = numbers[*v as usize]);
+        let hull: Vec<u32> = hull.iter().map(|&v| numbers[v as usize]).collect();
+        let count = sites.len();
+        let sites: Vec<Site> = vertices.iter().map(|&v| sites[v as usize]).collect();
+        let rings = if is_line { Rings::of_line(&sites, &hull) } else { Rings::of(&sites, &open, &hull)? };
+        Ok(SolvedPart { part, count, vertices, sites, rings, finals: triangles })
     }
 }
 
@@ -100,11 +86,17 @@ impl Border {
     fn of(open: &[[u32; 3]], hull: &[u32], count: usize) -> Self {
         let mut numbers = vec![INSIDE; count];
         open.iter().flatten().chain(hull).for_each(|&v| numbers[v as usize] = 0);
-        let mut vertices = Vec::with_capacity(open.len());
-        for (number, v) in numbers.iter_mut().zip(0..).filter(|(number, _)| **number != INSIDE) {
-            *number = vertices.len() as u32;
-            vertices.push(v);
+        // Every vertex is written, and the counter keeps the right ones: no processor would predict a branch.
+        let mut vertices = vec![0; count];
+        let mut border = 0;
+        for (number, v) in numbers.iter_mut().zip(0..) {
+            let is_inside = *number == INSIDE;
+            vertices[border] = v;
+            *number = if is_inside { INSIDE } else { border as u32 };
+            border += usize::from(!is_inside);
         }
+        vertices.truncate(border);
+        vertices.shrink_to_fit();
         Self { vertices, numbers }
     }
 }

@@ -4,10 +4,12 @@ use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 
 use super::super::{triangulate, Connectivity};
+use super::open::take_open;
 use super::{Parts, SolvedPart, Unsound};
 use crate::mesh::Mesh;
 use crate::order::mix;
 use crate::point::Point;
+use crate::tiles::reach::{Reach, TilePoint};
 
 const ONE: NonZeroUsize = NonZeroUsize::MIN;
 
@@ -120,6 +122,47 @@ fn nearly_all_triangles_of_large_parts_are_final() {
     let border: usize = solved.iter().map(SolvedPart::border).sum();
     let finals: usize = solved.iter().map(SolvedPart::finals).sum();
     assert!(border * 10 < points.len() && finals * 10 > 17 * points.len(), "{border} {finals}");
+}
+
+/// Holds the open triangles that the search finds against a test of each triangle. Returns how many they are.
+fn compare_open(points: &[Point], most: usize) -> usize {
+    let parts = Parts::divide(points, most, ONE).expect("few points");
+    let count = |part: usize| {
+        let range = parts.range(part).expect("a part");
+        let (region, own) = (parts.region(&range), parts.points(part));
+        let Mesh { triangles, hull, .. } = mesh_of(own.clone());
+        let mut left = triangles.clone();
+        let mut found = take_open(&mut left, &hull, &parts.sites[range], &region, parts.far).expect("a sound mesh");
+        let sides = Point::sides(&region);
+        let is_open = |corners: &[u32; 3]| Point::reach(&sides, corners.map(|v| own[v as usize])) != Reach::Within;
+        let (mut open, mut finals): (Vec<[u32; 3]>, _) = triangles.into_iter().partition(is_open);
+        [&mut left, &mut found, &mut open, &mut finals].into_iter().for_each(|list| list.sort_unstable());
+        assert!(found == open && left == finals, "part {part} of {most} of {points:?}");
+        open.len()
+    };
+    (0..parts.count()).map(count).sum()
+}
+
+#[test]
+fn the_search_finds_every_open_triangle() {
+    for case in 0..12_000u64 {
+        let (kind, side) = (case as usize % 6, [3, 6, 17, 60][random(case, 4)]);
+        let points: Vec<Point> = (0..80).map(|k| tied(kind, case * 1000 + k, side)).collect();
+        compare_open(&points, 3 + random((case + 2) << 20, 40));
+    }
+    let coordinate = |k: u64| (mix(k) >> 48) as u32;
+    let even: Vec<Point> = (0..20_000).map(|k| Point::new(coordinate(2 * k), coordinate(2 * k + 1))).collect();
+    // Discs of open triangles reach far into parts that have a corner in a large hole, and between curves.
+    let is_outside =
+        |p: &&Point| (i64::from(p.x) - 32_768).pow(2) + (i64::from(p.y) - 32_768).pow(2) > 20_000i64.pow(2);
+    let hollow: Vec<Point> = even.iter().filter(is_outside).copied().collect();
+    let curve = |p: &Point| Point::new(p.x, p.x / 256 * (p.x / 256) / (1 + (p.y & 1)));
+    let curves: Vec<Point> = even.iter().map(curve).collect();
+    for points in [&even, &hollow, &curves] {
+        for most in [50, 1000, 6000] {
+            assert!(compare_open(points, most) > 100);
+        }
+    }
 }
 
 /// Changes a mesh in one of many ways.
