@@ -2,38 +2,36 @@
 //! and the parts of its answer.
 //!
 //! Hardware twin: the block `Questions`. During a run no insertion is at work, so all visits in the pipeline are those
-//! of questions, and no record changes. In this model a visit is therefore an entry of a delay line, and its record is
-//! read when the visit completes.
+//! of questions.
 
 mod item_queues;
+mod near;
 mod part_queue;
 mod run_port;
 mod signals;
 mod step;
+mod visits;
 
 use super::beat::Beat;
 use super::memory::Memory;
 use incircle_protocol::RunKind;
 use item_queues::ItemQueues;
+use near::Search;
 use part_queue::{Part, PartQueue};
 use run_port::RunPort;
 use signals::Item;
 pub(super) use signals::Signals;
-use std::collections::VecDeque;
-use step::{Followed, Visit};
-
-/// Number of clocks from the request of a visit to the requests that follow it.
-const LOOP: usize = 18;
+use visits::{Bundle, Visit, Visits};
 
 #[derive(Clone, Debug)]
 pub(super) struct Questions {
     port: RunPort,
     queues: ItemQueues,
     parts: PartQueue,
-    /// The visits in the pipeline, the oldest first, with `None` for clocks without a visit.
-    visits: VecDeque<Option<Visit>>,
-    /// The item of each context.
+    visits: Visits,
+    /// The item of each context, and its search for the nearest vertex.
     items: Vec<Item>,
+    searches: Vec<Search>,
     /// The record at which the last walk of each context has ended.
     hints: Vec<u32>,
 }
@@ -45,15 +43,16 @@ impl Questions {
             port: RunPort::new(),
             queues: ItemQueues::new(contexts),
             parts: PartQueue::default(),
-            visits: VecDeque::from(vec![None; LOOP]),
+            visits: Visits::new(),
             items: vec![Item::default(); contexts],
+            searches: vec![Search::default(); contexts],
             hints: vec![0; contexts],
         }
     }
 
     /// Whether the core answers runs of this kind.
     pub(super) fn answers(kind: RunKind) -> bool {
-        matches!(kind, RunKind::Locate | RunKind::Interpolate)
+        matches!(kind, RunKind::Locate | RunKind::Interpolate | RunKind::Nearest)
     }
 
     /// Whether a run is under way.
@@ -73,31 +72,26 @@ impl Questions {
 
     /// Simulates one edge.
     pub(super) fn clock(&mut self, signals: &Signals, memory: &Memory) {
-        let visit = self.visits.pop_front().flatten();
-        let followed = visit.map(|visit| {
-            let place = self.items[visit.context].place;
-            step::follow(&visit, memory.record(visit.record), place, memory)
-        });
-        let next = followed.and_then(|followed| followed.next());
+        let visit = self.visits.completion();
         let context = visit.map_or(0, |visit| visit.context);
-        let ends = followed.is_some_and(|followed| matches!(followed, Followed::End(..)));
-        let came = match followed {
-            Some(Followed::End(outcome, located)) => {
-                Some(Part { number: self.items[context].number, outcome, located })
-            }
-            _ => None,
-        };
-        if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives())) {
+        let followed = visit.map(|visit| {
+            let (place, search) = (self.items[context].place, &mut self.searches[context]);
+            step::follow(self.port.kind(), &visit, memory.record(visit.record), place, search, memory)
+        });
+        let asked = followed.map_or(Bundle::default(), |followed| followed.visits);
+        let end = followed.and_then(|followed| followed.end);
+        let came = end.map(|(outcome, located)| Part { number: self.items[context].number, outcome, located });
+        if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives)) {
             self.hints[context] = visit.record;
         }
-        let may_launch = self.parts.has_room() && next.is_none();
+        let may_launch = self.parts.has_room() && asked.is_empty();
         let offer = self.port.dealt();
-        let done = self.queues.clock(offer, ends.then_some(context), may_launch);
+        let done = self.queues.clock(offer, end.map(|_| context), may_launch);
         let launched = done.launched.map(|(context, item)| {
             self.items[context] = item;
-            Visit::walk(context, self.hints[context])
+            Bundle::one(Visit::walk(context, self.hints[context]))
         });
-        self.visits.push_back(next.or(launched));
+        self.visits.clock(launched.unwrap_or(asked));
         let is_over = self.parts.is_over();
         let head = self.port.head(signals.signature);
         self.port.clock(signals, done.taken, is_over);

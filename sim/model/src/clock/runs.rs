@@ -26,7 +26,7 @@ impl ClockModel {
     }
 
     /// The same core with questions about a mesh that stands, and no other runs: a core of the hardware as far as it is
-    /// built. Of the questions it has `Locate` and `Interpolate`, and its identity does not offer runs.
+    /// built. Its identity does not offer runs.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         self.questions = Some(Questions::new(self.config.contexts));
