@@ -1,11 +1,13 @@
 //! A mesh that stands and answers: runs of questions, in all contexts side by side.
 //!
 //! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
-//! of the insertion engine, which inserts nothing meanwhile. [`Questions`] draws its blocks.
+//! of the insertion engine, which inserts nothing meanwhile. Behind the walk, a `Nearest` goes round vertices.
+//! [`Questions`] draws its blocks.
 
 mod item_dealer;
 mod item_queues;
 mod named_vertices;
+mod near_search;
 mod part_beat;
 mod part_queue;
 mod question_step;
@@ -18,6 +20,7 @@ mod standing_view;
 pub mod types;
 
 pub use item_queues::ItemQueues;
+pub use near_search::NearSearch;
 pub use part_queue::PartQueue;
 pub use question_step::QuestionStep;
 pub use questions::Questions;

@@ -1,7 +1,7 @@
 //! The head of the answer to a run.
 //!
-//! 1. An answer has four words for each item of a `Locate` (8), and ten for each item of an `Interpolate` (9). The
-//!    answer to a run that is refused, with another status than 0, is its head alone.
+//! 1. An answer has four words for each item of a `Locate` (8), ten for each item of an `Interpolate` (9), and two for
+//!    each item of a `Nearest` (10). The answer to a run that is refused, with another status than 0, is its head alone.
 //! 2. A run is too long if the words of its answer cannot be counted in 32 bits.
 //!
 //! Latency: none, the block is combinational.
@@ -27,6 +27,7 @@ pub struct RunAnswer {
     wide_code: Signal<Local, Word>,
     shifted_code: Signal<Local, Word>,
     is_weighed: Signal<Local, Bit>,
+    is_nearest: Signal<Local, Bit>,
     most: Signal<Local, Word>,
     one: Signal<Local, Word>,
     two: Signal<Local, Word>,
@@ -37,11 +38,13 @@ pub struct RunAnswer {
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = {
-    let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words()];
-    assert!(words[0] == 4 && words[1] == 10, "the numbers of this block follow the protocol");
-    let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32];
+    let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words(), RunKind::Nearest.part_words()];
+    assert!(words[0] == 4 && words[1] == 10 && words[2] == 2, "the numbers of this block follow the protocol");
+    let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32, u32::MAX / words[2] as u32];
     assert!(most[0] == 1_073_741_823 && most[1] == 429_496_729, "the most items that can be counted");
-    assert!(Opcode::Locate as u8 & 1 == 0 && Opcode::Interpolate as u8 & 1 == 1, "the low bit of the opcode decides");
+    assert!(most[2] == 2_147_483_647, "the most items that can be counted");
+    assert!(Opcode::Locate as u8 & 3 == 0 && Opcode::Interpolate as u8 & 3 == 1, "the low bits of the opcode decide");
+    assert!(Opcode::Nearest as u8 & 3 == 2, "the low bits of the opcode decide");
 };
 
 impl Logic for RunAnswer {
@@ -53,6 +56,7 @@ impl Logic for RunAnswer {
         self.status_shift.next = 16.into();
         self.code_shift.next = 24.into();
         self.is_weighed.next = self.code.val().get_bit(0);
+        self.is_nearest.next = self.code.val().get_bit(1);
         self.most.next = 1073741823.into();
         self.head.next.length = self.count.val() << self.two.val();
         self.head.next.last_beat = 1.into();
@@ -60,6 +64,11 @@ impl Logic for RunAnswer {
             self.most.next = 429496729.into();
             self.head.next.length = (self.count.val() << self.three.val()) + (self.count.val() << self.one.val());
             self.head.next.last_beat = 4.into();
+        }
+        if self.is_nearest.val() {
+            self.most.next = 2147483647.into();
+            self.head.next.length = self.count.val() << self.one.val();
+            self.head.next.last_beat = 0.into();
         }
         self.is_too_long.next = self.most.val() < self.count.val();
 

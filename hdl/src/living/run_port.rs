@@ -69,8 +69,9 @@ pub struct RunPort {
     pub head: Signal<Out, RunHead>,
     /// The last word of the answer has been taken; from the clock after `head`.
     pub is_over: Signal<In, Bit>,
-    /// A run is under way.
+    /// A run is under way, and it is one of `Nearest`.
     pub is_active: Signal<Out, Bit>,
+    pub is_nearest: Signal<Out, Bit>,
     dealer: ItemDealer,
     answer: RunAnswer,
     state: DFF<RunState>,
@@ -99,6 +100,7 @@ impl Logic for RunPort {
         clock!(self, clock, dealer);
         self.one.next = 1.into();
         self.is_active.next = self.state.q.val() != RunState::Idle;
+        self.is_nearest.next = self.code.q.val().get_bit(1);
         self.starts.next = self.begins.val() & (self.state.q.val() == RunState::Idle);
         self.awaits_item.next =
             (self.state.q.val() == RunState::Items) & self.some_are_left.q.val() & (!self.dealer.holds.val());

@@ -11,7 +11,7 @@
 //! ```
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
-use crate::engine::{Bundle, Completion, Counters, InsertionEngine, Latencies, Position, Write};
+use crate::engine::{Bundle, Completion, Counters, InsertionEngine, Latencies, NearVerdict, Position, Write};
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
 use crate::living::StandingView;
@@ -36,6 +36,7 @@ pub struct Core {
     pub question_place: Vec<Signal<In, Position>>,
     pub completed: Vec<Signal<Out, Completion>>,
     pub sides: Vec<Signal<Out, Sides>>,
+    pub nearest: Vec<Signal<Out, NearVerdict>>,
     pub standing: Vec<Signal<Out, Standing>>,
     command_port: CommandPort,
     answer_head: AnswerHead,
@@ -103,6 +104,7 @@ impl Core {
             question_place: vec![Signal::default()],
             completed: vec![Signal::default()],
             sides: vec![Signal::default()],
+            nearest: vec![Signal::default()],
             standing: vec![Signal::default()],
             view: vec![StandingView::default()],
             ..Self::new(config)?
@@ -194,6 +196,7 @@ impl Logic for Core {
             self.engine.question_place[i].next = self.question_place[i].val();
             self.completed[i].next = self.engine.completed[i].val();
             self.sides[i].next = self.engine.sides[i].val();
+            self.nearest[i].next = self.engine.nearest[i].val();
             self.view[i].awaits_command.next = self.command_port.awaits_command[i].val();
             self.view[i].clearing.next = self.command_port.clearing.val();
             self.view[i].deal.next = self.command_port.deal.val();

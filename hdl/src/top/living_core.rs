@@ -1,4 +1,4 @@
-//! The core with questions: as [`Core`], and it also answers runs of `Locate` and `Interpolate`.
+//! The core with questions: as [`Core`], and it also answers runs of `Locate`, `Interpolate` and `Nearest`.
 //!
 //! ```text
 //! commands -> RunGate --> Core ------- completed visits --+
@@ -82,6 +82,7 @@ impl Logic for LivingCore {
         self.questions.completion.next = self.completion.val();
         self.questions.completion.next.done = self.completion.val().done & self.questions.is_active.val();
         self.questions.sides.next = self.core.sides[0].val();
+        self.questions.nearest.next = self.core.nearest[0].val();
         self.core.question_runs[0].next = self.questions.is_active.val();
         self.core.question_asks[0].next = self.questions.push.val().valid;
         self.core.question[0].next = self.questions.push.val().bundle;

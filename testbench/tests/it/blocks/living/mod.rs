@@ -1,6 +1,7 @@
 //! Tests of the blocks in `hdl/src/living`.
 
 mod item_queues;
+mod near_search;
 mod part_queue;
 mod question_step;
 mod questions;

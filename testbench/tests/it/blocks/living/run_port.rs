@@ -7,12 +7,13 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     RunPort,
     [reset, begins, opcode, signature, contexts, has_mesh, command.valid, command.data, taken, is_over],
-    [command.ready, dealt, head, is_active],
+    [command.ready, dealt, head, is_active, is_nearest],
     clock
 );
 
 const LOCATE: u64 = 8;
 const INTERPOLATE: u64 = 9;
+const NEAREST: u64 = 10;
 const BAD_RANGE: u64 = 2;
 const NO_MESH: u64 = 7;
 
@@ -38,10 +39,10 @@ struct Run {
 impl Run {
     /// Number of words of the part of an item.
     fn part_words(&self) -> u64 {
-        if self.opcode == INTERPOLATE {
-            10
-        } else {
-            4
+        match self.opcode {
+            INTERPOLATE => 10,
+            NEAREST => 2,
+            _ => 4,
         }
     }
 
@@ -94,6 +95,7 @@ impl Run {
                 block.expect("head_length", self.part_words() * parts);
                 block.expect("head_last_beat", self.part_words() / 2 - 1);
                 block.expect("head_parts", parts);
+                block.expect("is_nearest", self.opcode == NEAREST);
                 heads += 1;
             }
             let taken = block.is("dealt_valid") && random.once_in(takes);
@@ -131,7 +133,7 @@ fn run_port_deals_the_items_in_turn() {
     reset(&mut block);
     for number in 0..300 {
         let run = Run {
-            opcode: LOCATE + random.below(2),
+            opcode: LOCATE + random.below(3),
             count: [0, 1, 5, 60][number % 4],
             has_mesh: !random.once_in(4),
             contexts: 1 + random.below(24),
@@ -150,6 +152,8 @@ fn run_port_refuses_a_run_whose_answer_is_too_long() {
         (INTERPOLATE, 429_496_730, true),
         (INTERPOLATE, 429_496_729, false),
         (INTERPOLATE, 1 << 31, true),
+        (NEAREST, 1 << 31, true),
+        (NEAREST, (1 << 31) - 1, false),
     ] {
         let mut block = Stepper::new("living_run_port", RunPort::default(), 1);
         reset(&mut block);
