@@ -17,8 +17,8 @@ use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, Position,
-    RecordRead, Start, Verdict, VertexId, Write,
+    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, NearVerdict,
+    Position, RecordRead, Start, Verdict, VertexId, Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
@@ -52,13 +52,14 @@ pub struct InsertionEngine {
     pub events: Signal<Out, Events>,
     /// In a core that answers questions: a run of them is under way, which it is only while the engine is quiet. All
     /// visits are theirs then. A question asks for the visit, or begins with a place; and the visit that completes,
-    /// with signs and values of its three orient2d, for the corners as stored.
+    /// with signs and values of its three orient2d, for the corners as stored, and the search for the nearest vertex.
     pub question_runs: Vec<Signal<In, Bit>>,
     pub question_asks: Vec<Signal<In, Bit>>,
     pub question: Vec<Signal<In, Bundle>>,
     pub question_place: Vec<Signal<In, Position>>,
     pub completed: Vec<Signal<Out, Completion>>,
     pub sides: Vec<Signal<Out, Sides>>,
+    pub nearest: Vec<Signal<Out, NearVerdict>>,
     /// An item of a run of changes begins: its context starts to walk (`launch`), to the place of `question_place`, and
     /// the point may have to be stored. The mesh has been changed, and some point of an `Insert` is not finished; a run
     /// of changes is under way; and the events that end items.
@@ -99,6 +100,7 @@ impl InsertionEngine {
             question_place: vec![Signal::default()],
             completed: vec![Signal::default()],
             sides: vec![Signal::default()],
+            nearest: vec![Signal::default()],
             insertions: Insertions::with_changes(config),
             launches: vec![Signal::default()],
             launch: vec![Signal::default()],
@@ -197,6 +199,7 @@ impl Logic for InsertionEngine {
             }
             self.completed[i].next = self.pipeline.completion.val();
             self.sides[i].next = self.pipeline.sides[i].val();
+            self.nearest[i].next = self.pipeline.nearest[i].val();
         }
 
         // An item of a run of changes is an insertion whose vertex and point do not come from the vertex memory. The

@@ -1,8 +1,8 @@
 //! A mesh that stands, answers and grows: runs of questions and of changes, in all contexts side by side.
 //!
 //! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
-//! of the insertion engine, which inserts nothing meanwhile. Each `InsertAs` is an insertion of that engine.
-//! [`Questions`] and [`Changes`] draw their blocks.
+//! of the insertion engine, which inserts nothing meanwhile. Behind the walk, a `Nearest` goes round vertices. Each
+//! `InsertAs` is an insertion of that engine. [`Questions`] and [`Changes`] draw their blocks.
 
 mod change_ends;
 mod changes;
@@ -10,6 +10,7 @@ mod item_dealer;
 mod item_queues;
 mod late_points;
 mod named_vertices;
+mod near_search;
 mod part_beat;
 mod part_queue;
 mod question_step;
@@ -26,6 +27,7 @@ pub use change_ends::ChangeEnds;
 pub use changes::Changes;
 pub use item_queues::ItemQueues;
 pub use late_points::LatePoints;
+pub use near_search::NearSearch;
 pub use part_queue::PartQueue;
 pub use question_step::QuestionStep;
 pub use questions::Questions;

@@ -7,21 +7,30 @@
 //!    the place too. The answer is the hull edge of the last ghost triangle that does, counter-clockwise on the hull. A
 //!    visit of this search has 1 as `entry`, and as `cavity_record` the end of the hull edge of the ghost triangle that
 //!    was visited before. The start of that edge is a corner of both ghost triangles, so the visit need not carry it.
-//! 4. Visits of questions turn no record and take no lock.
+//! 4. In a run of `Nearest`, [`NearSearch`] goes round vertices as soon as the walk has ended. Of its finding only
+//!    outcome and first vertex count.
+//! 5. Visits of questions take no lock, and those of walks and of the search along the hull turn no record.
 //!
-//! Latency: none, the block is combinational.
+//! Latency: none (combinational) from a completed visit to all outputs.
 
 use super::named_vertices::NamedVertices;
+use super::near_search::NearSearch;
 use super::types::Finding;
-use crate::engine::types::{Bundle, Completion, RingEntry, TriangleId, Turned, Verdict, VertexId, Visit};
+use crate::engine::types::{Bundle, Completion, NearVerdict, RingEntry, TriangleId, Turned, Verdict, VertexId, Visit};
 use crate::predicate::Sides;
-use rust_hdl_core::prelude::*;
+use crate::prelude::*;
+use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]
 pub struct QuestionStep {
-    /// The visit that completes, and signs and values of its three orient2d, for the corners as stored.
+    pub clock: Signal<In, Clock>,
+    /// The run is one of `Nearest`.
+    pub is_nearest: Signal<In, Bit>,
+    /// The visit that completes, with signs and values of its three orient2d, for the corners as stored, and with the
+    /// search for the nearest vertex.
     pub completion: Signal<In, Completion>,
     pub sides: Signal<In, Sides>,
+    pub nearest: Signal<In, NearVerdict>,
     /// Another visit follows, and that visit.
     pub asks: Signal<Out, Bit>,
     pub bundle: Signal<Out, Bundle>,
@@ -34,11 +43,16 @@ pub struct QuestionStep {
     pub corner: Signal<Out, VertexId>,
     met: Signal<Local, Finding>,
     named: NamedVertices,
+    search: NearSearch,
     visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
     verdict: Signal<Local, Verdict>,
     entry: Signal<Local, RingEntry>,
     is_search: Signal<Local, Bit>,
+    is_chain: Signal<Local, Bit>,
+    looks: Signal<Local, Bit>,
+    is_walk: Signal<Local, Bit>,
+    is_near: Signal<Local, Bit>,
     is_ghost: Signal<Local, Bit>,
     sees: Signal<Local, Bit>,
     stands: Signal<Local, Bit>,
@@ -47,14 +61,25 @@ pub struct QuestionStep {
     hull_before: Signal<Local, TriangleId>,
 }
 
+impl QuestionStep {
+    /// The rules of a configuration, which must be a valid one.
+    pub fn new(config: Config) -> Self {
+        Self { search: NearSearch::new(config), ..Self::default() }
+    }
+}
+
 impl Logic for QuestionStep {
     #[hdl_gen]
     fn update(&mut self) {
+        clock!(self, clock, search);
         self.visit.next = self.completion.val().visit;
         self.turned.next = self.completion.val().turned;
         self.verdict.next = self.completion.val().verdict;
         self.entry.next = self.visit.val().entry;
         self.is_search.next = self.entry.val().get_bit(0);
+        self.is_chain.next = self.entry.val().get_bit(1);
+        self.looks.next = self.entry.val().get_bit(3);
+        self.is_walk.next = (!self.is_search.val()) & (!self.is_chain.val()) & (!self.looks.val());
         self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
         self.sees.next = self.is_ghost.val() & self.verdict.val().located;
         self.stands.next = (!self.is_ghost.val()) & self.verdict.val().located & (!self.is_search.val());
@@ -92,7 +117,20 @@ impl Logic for QuestionStep {
         }
         self.ends.next = self.completion.val().done & (self.stands.val() | self.passes_by.val());
         self.asks.next = self.completion.val().done & (!self.stands.val()) & (!self.passes_by.val());
-        self.arrives.next = self.completion.val().done & self.verdict.val().located & (!self.is_search.val());
+        self.arrives.next = self.completion.val().done & self.verdict.val().located & self.is_walk.val();
+
+        self.search.completion.next = self.completion.val();
+        self.search.nearest.next = self.nearest.val();
+        self.search.follows.next = self.completion.val().done & self.is_chain.val();
+        self.search.begins.next =
+            (self.completion.val().done & self.looks.val()) | (self.is_nearest.val() & self.arrives.val());
+        self.is_near.next =
+            self.is_chain.val() | self.looks.val() | (self.is_nearest.val() & self.verdict.val().located);
+        if self.is_near.val() {
+            self.ends.next = self.search.ends.val();
+            self.asks.next = self.search.asks.val();
+            self.bundle.next = self.search.bundle.val();
+        }
 
         self.named.turned.next = self.turned.val();
         self.named.sides.next = self.sides.val();
@@ -107,6 +145,10 @@ impl Logic for QuestionStep {
             self.finding.next.w0 = 0.into();
             self.finding.next.w1 = 0.into();
             self.finding.next.w2 = 0.into();
+        }
+        if self.is_near.val() {
+            self.finding.next.outcome = 1.into();
+            self.finding.next.v0 = self.search.vertex.val();
         }
     }
 }

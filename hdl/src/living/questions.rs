@@ -7,9 +7,9 @@
 //!                         +-- ends -- QuestionStep <-- completed visits
 //! answer <- PartQueue <---- parts --------+
 //! ```
-//! 1. A context works on one item at a time, and has one visit in flight. A visit that completes asks for the next one,
-//!    or ends its item. A walk begins in a clock in which no completed visit asks, so visits enter the queue of the
-//!    pipeline one a clock.
+//! 1. A context works on one item at a time, and has one visit in flight, or up to three in the search of a `Nearest`.
+//!    A visit that completes asks for the next one or two, or ends its item, or leaves both to another visit in flight.
+//!    A walk begins in a clock in which no completed visit asks, so one bundle a clock enters the queue of the pipeline.
 //! 2. A walk begins where the last walk of its context has ended, or at record 0 if there was none since the last
 //!    `clears`. No record goes away while the mesh stands.
 //! 3. Questions take no lock and write no record. The user begins a run only while no insertion is at work, so the mesh
@@ -28,8 +28,8 @@ use super::run_port::RunPort;
 use super::types::{Item, ItemNumber, Launch, Part};
 use crate::commands::{AnswerSource, CommandSink};
 use crate::engine::types::{
-    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, Position, Push, Start, TriangleId,
-    VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
+    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, NearVerdict, Position, Push, Start,
+    TriangleId, VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::predicate::Sides;
@@ -51,9 +51,11 @@ pub struct Questions {
     pub has_mesh: Signal<In, Bit>,
     pub command: CommandSink,
     pub response: AnswerSource,
-    /// The visit of a question that completes, and signs and values of its three orient2d, for the corners as stored.
+    /// The visit of a question that completes, with signs and values of its three orient2d, for the corners as stored,
+    /// and with the search for the nearest vertex.
     pub completion: Signal<In, Completion>,
     pub sides: Signal<In, Sides>,
+    pub nearest: Signal<In, NearVerdict>,
     pub push: Signal<Out, Push>,
     /// The place of the item that begins, and its context.
     pub position: Signal<Out, Position>,
@@ -109,6 +111,7 @@ impl Questions {
         Self {
             queues: ItemQueues::new(config),
             changes: Changes::new(config),
+            step: QuestionStep::new(config),
             hints: LutMemory::new(bits, TRIANGLE_BITS),
             numbers: LutMemory::new(bits, 24),
             ..Self::default()
@@ -120,7 +123,7 @@ impl Logic for Questions {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, hinted);
-        clock!(self, clock, port, queues, parts, hints, numbers, changes);
+        clock!(self, clock, port, queues, step, parts, hints, numbers, changes);
         self.one_bit.next = 1.into();
         self.port.reset.next = self.reset.val();
         self.port.begins.next = self.begins.val();
@@ -138,6 +141,8 @@ impl Logic for Questions {
 
         self.step.completion.next = self.completion.val();
         self.step.sides.next = self.sides.val();
+        self.step.nearest.next = self.nearest.val();
+        self.step.is_nearest.next = self.port.is_nearest.val();
         self.visit.next = self.completion.val().visit;
         self.queues.reset.next = self.reset.val();
         self.queues.dealt.next = self.changes.queued.val();
@@ -166,7 +171,9 @@ impl Logic for Questions {
         self.push.next.valid = self.is_question.val() & (self.step.asks.val() | self.launches.val());
         self.bundle.next = self.step.bundle.val();
         if !self.step.asks.val() {
+            self.bundle.next.is_pair = false;
             self.bundle.next.context = self.launch.val().context;
+            self.bundle.next.rotates = false;
             self.bundle.next.entry = 0.into();
             self.bundle.next.record = self.start_record.val();
         }

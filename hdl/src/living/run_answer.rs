@@ -1,8 +1,8 @@
 //! The head of the answer to a run.
 //!
 //! 1. An answer has four words for each item of a `Locate` (8), ten for each item of an `Interpolate` (9), and two for
-//!    each item of an `InsertAs` (11). The answer to a run that is refused, with another status than 0, is its head
-//!    alone.
+//!    each item of a `Nearest` (10) or an `InsertAs` (11). The answer to a run that is refused, with another status than
+//!    0, is its head alone.
 //! 2. A run is too long if the words of its answer cannot be counted in 32 bits.
 //!
 //! Latency: none, the block is combinational.
@@ -39,13 +39,14 @@ pub struct RunAnswer {
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = {
-    let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words(), RunKind::InsertAs.part_words()];
+    let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words(), RunKind::Nearest.part_words()];
     assert!(words[0] == 4 && words[1] == 10 && words[2] == 2, "the numbers of this block follow the protocol");
-    let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32];
+    assert!(RunKind::InsertAs.part_words() == words[2], "two kinds of parts have two words");
+    let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32, u32::MAX / words[2] as u32];
     assert!(most[0] == 1_073_741_823 && most[1] == 429_496_729, "the most items that can be counted");
-    assert!(u32::MAX / words[2] as u32 == 2_147_483_647, "the most items that can be counted");
+    assert!(most[2] == 2_147_483_647, "the most items that can be counted");
     assert!(Opcode::Locate as u8 & 3 == 0 && Opcode::Interpolate as u8 & 3 == 1, "two bits of the opcode decide");
-    assert!(Opcode::InsertAs as u8 & 2 == 2, "two bits of the opcode decide");
+    assert!(Opcode::Nearest as u8 & 3 == 2 && Opcode::InsertAs as u8 & 3 == 3, "two bits of the opcode decide");
 };
 
 impl Logic for RunAnswer {

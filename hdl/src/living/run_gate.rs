@@ -1,7 +1,7 @@
 //! Directs the words of runs to the questions and all other words to the rest of the core, and merges the answers.
 //!
-//! 1. A run begins with an opcode word of `Locate` (8), `Interpolate` (9) or `InsertAs` (11). The core does not see that word, nor any
-//!    other word up to the end of the run.
+//! 1. A run begins with an opcode word of `Locate` (8), `Interpolate` (9), `Nearest` (10) or `InsertAs` (11). The core
+//!    does not see that word, nor any other word up to the end of the run.
 //! 2. If both sides have a beat on offer, that of the core goes first. It is the last beat of an answer, because a run
 //!    begins only when the core awaits its next command.
 //!
@@ -32,12 +32,16 @@ pub struct RunGate {
     code: Signal<Local, Bits<8>>,
     locate_code: Signal<Local, Bits<8>>,
     interpolate_code: Signal<Local, Bits<8>>,
+    nearest_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
 }
 
 // The kernel holds the opcode as a literal, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
-    Opcode::Locate as u8 == 8 && Opcode::Interpolate as u8 == 9 && Opcode::InsertAs as u8 == 11,
+    Opcode::Locate as u8 == 8
+        && Opcode::Interpolate as u8 == 9
+        && Opcode::Nearest as u8 == 10
+        && Opcode::InsertAs as u8 == 11,
     "the opcodes of this block follow the protocol"
 );
 
@@ -46,6 +50,7 @@ impl Logic for RunGate {
     fn update(&mut self) {
         self.locate_code.next = 8.into();
         self.interpolate_code.next = 9.into();
+        self.nearest_code.next = 10.into();
         self.insert_code.next = 11.into();
         self.code.next = self.command.data.val().get_bits::<8>(24);
         self.opcode.next = self.code.val();
@@ -54,6 +59,7 @@ impl Logic for RunGate {
             & (!self.is_active.val())
             & ((self.code.val() == self.locate_code.val())
                 | (self.code.val() == self.interpolate_code.val())
+                | (self.code.val() == self.nearest_code.val())
                 | (self.code.val() == self.insert_code.val()));
         self.core_command.data.next = self.command.data.val();
         self.core_command.valid.next = self.command.valid.val() & (!self.is_active.val()) & (!self.begins.val());

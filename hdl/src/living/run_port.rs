@@ -73,8 +73,9 @@ pub struct RunPort {
     pub head: Signal<Out, RunHead>,
     /// The last word of the answer has been taken; from the clock after `head`.
     pub is_over: Signal<In, Bit>,
-    /// A run is under way.
+    /// A run is under way, and it is one of `Nearest`.
     pub is_active: Signal<Out, Bit>,
+    pub is_nearest: Signal<Out, Bit>,
     dealer: ItemDealer,
     answer: RunAnswer,
     state: DFF<RunState>,
@@ -112,6 +113,7 @@ impl Logic for RunPort {
         self.is_change.next = self.code.q.val() == self.change_code.val();
         self.is_vertex.next = (self.code.q.val() == self.change_code.val()) & (!self.vertex_came.q.val());
         self.is_active.next = self.state.q.val() != RunState::Idle;
+        self.is_nearest.next = self.code.q.val().get_bit(1) & (!self.code.q.val().get_bit(0));
         self.starts.next = self.begins.val() & (self.state.q.val() == RunState::Idle);
         self.awaits_item.next =
             (self.state.q.val() == RunState::Items) & self.some_are_left.q.val() & (!self.dealer.holds.val());

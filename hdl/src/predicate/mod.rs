@@ -9,8 +9,10 @@
 //!            |                                                       -> WideProduct x2, sign -> incircle_...
 //!            -> VertexOrder ----------------------------------------------------------------> p_..., r0_...
 //! ```
-//! In a core that answers questions, `SideDelay` also gives the values of the three orient2d.
+//! In a core that answers questions, `SideDelay` also gives the values of the three orient2d, and `CornerPairs`
+//! compares the distances of the corners.
 
+mod corner_pairs;
 mod cross_product;
 mod dot_product;
 mod edge_signs;
@@ -22,12 +24,15 @@ mod visit_predicates;
 mod wide_product;
 mod widths;
 
+pub use corner_pairs::CornerPairs;
 pub use cross_product::CrossProduct;
 pub use dot_product::DotProduct;
 pub use edge_signs::EdgeSigns;
 pub use point_difference::PointDifference;
 pub use side_delay::SideDelay;
-pub use signs::{Corners, EdgeFlags, OrderFlags, Sides, Signs, Weights, WEIGHTS_BITS};
+pub use signs::{
+    Corners, EdgeFlags, InfiniteCorners, NearSigns, OrderFlags, PairFlags, Sides, Signs, Weights, WEIGHTS_BITS,
+};
 pub use vertex_order::VertexOrder;
 pub use visit_predicates::VisitPredicates;
 pub use wide_product::WideProduct;

@@ -42,6 +42,47 @@ crate::packed! {
         pub weights: Weights,
     }
 
+    /// The comparisons of the vectors from the point to the corners, by which the nearest corner and its spokes are
+    /// found. The spoke from one corner to another is *ahead* if it makes an angle of less than 90 degrees with the
+    /// direction to the point.
+    pub struct PairFlags {
+        /// Corner 1 is nearer to the point than corner 0, and so on.
+        pub nearer_10: bool,
+        pub nearer_20: bool,
+        pub nearer_21: bool,
+        /// Both corners have the same distance to the point.
+        pub equal_10: bool,
+        pub equal_20: bool,
+        pub equal_21: bool,
+        /// The spoke from corner 0 to corner 1 is ahead, and so on.
+        pub ahead_01: bool,
+        pub ahead_02: bool,
+        pub ahead_10: bool,
+        pub ahead_12: bool,
+        pub ahead_20: bool,
+        pub ahead_21: bool,
+    }
+
+    /// The corners of a record as stored that are the infinite vertex, one at most.
+    pub struct InfiniteCorners {
+        pub c0: bool,
+        pub c1: bool,
+        pub c2: bool,
+    }
+
+    /// The corner nearest to the point, and its spokes: the edges to the next corner and to the corner before,
+    /// counter-clockwise.
+    pub struct NearSigns {
+        /// The stored slot of the corner.
+        pub slot: Bits<2>,
+        /// The spoke is ahead; arbitrary if its end is infinite.
+        pub next_is_ahead: bool,
+        pub before_is_ahead: bool,
+        /// The end of the spoke is the infinite vertex.
+        pub next_is_infinite: bool,
+        pub before_is_infinite: bool,
+    }
+
     /// The lexicographic order of the point and the corners: by `x`, then by `y`.
     pub struct OrderFlags {
         /// The point comes before the corner.

@@ -14,12 +14,13 @@
 //! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for the small
 //! products, 8 for the large ones.
 
+use super::corner_pairs::CornerPairs;
 use super::cross_product::CrossProduct;
 use super::dot_product::DotProduct;
 use super::edge_signs::EdgeSigns;
 use super::point_difference::PointDifference;
 use super::side_delay::SideDelay;
-use super::signs::{Corners, Sides, Signs};
+use super::signs::{Corners, PairFlags, Sides, Signs};
 use super::vertex_order::VertexOrder;
 use super::wide_product::WideProduct;
 use super::widths::Point;
@@ -33,6 +34,8 @@ pub struct VisitPredicates {
     pub signs: Signal<Out, Signs>,
     /// Signs and values of the three orient2d: in a core that answers questions.
     pub sides: Vec<Signal<Out, Sides>>,
+    /// In such a core as well: the comparisons of the corners, 5 clocks after them.
+    pub pairs: Vec<Signal<Out, PairFlags>>,
     p_to_r0: PointDifference,
     p_to_r1: PointDifference,
     p_to_r2: PointDifference,
@@ -46,6 +49,7 @@ pub struct VisitPredicates {
     dot_point: DotProduct,
     edges: EdgeSigns,
     side_delay: Vec<SideDelay>,
+    corner_pairs: Vec<CornerPairs>,
     order: VertexOrder,
     point_by_apex: WideProduct,
     apex_by_point: WideProduct,
@@ -67,6 +71,8 @@ impl VisitPredicates {
     pub fn with_sides() -> Self {
         Self {
             sides: vec![Signal::default()],
+            pairs: vec![Signal::default()],
+            corner_pairs: vec![CornerPairs::default()],
             side_delay: vec![SideDelay::new(Self::LATENCY - CrossProduct::LATENCY)],
             ..Self::default()
         }
@@ -81,6 +87,7 @@ impl Default for VisitPredicates {
             p: Signal::default(),
             signs: Signal::default(),
             sides: Vec::new(),
+            pairs: Vec::new(),
             p_to_r0: PointDifference::default(),
             p_to_r1: PointDifference::default(),
             p_to_r2: PointDifference::default(),
@@ -94,6 +101,7 @@ impl Default for VisitPredicates {
             dot_point: DotProduct::default(),
             edges: EdgeSigns::new(Self::LATENCY - CrossProduct::LATENCY),
             side_delay: Vec::new(),
+            corner_pairs: Vec::new(),
             order: VertexOrder::new(Self::LATENCY),
             point_by_apex: WideProduct::default(),
             apex_by_point: WideProduct::default(),
@@ -161,6 +169,11 @@ impl Logic for VisitPredicates {
             self.side_delay[i].e2.next = self.cross_2.product.val();
             self.side_delay[i].flags.next = self.edges.flags.val();
             self.sides[i].next = self.side_delay[i].sides.val();
+            self.corner_pairs[i].clock.next = self.clock.val();
+            self.corner_pairs[i].corners.next = self.corners.val();
+            self.corner_pairs[i].p.next = self.p.val();
+            self.corner_pairs[i].r1_by_r2.next = self.dot_point.product.val();
+            self.pairs[i].next = self.corner_pairs[i].flags.val();
         }
         self.point_by_apex.a.next = self.cross_0.product.val();
         self.point_by_apex.b.next = self.dot_apex.product.val();

@@ -12,8 +12,8 @@
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
 use crate::engine::{
-    Arrival, Bundle, ChangeEvents, Completion, ContextId, Counters, InsertionEngine, Latencies, Position, Start,
-    VertexId, Write,
+    Arrival, Bundle, ChangeEvents, Completion, ContextId, Counters, InsertionEngine, Latencies, NearVerdict, Position,
+    Start, VertexId, Write,
 };
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
@@ -39,6 +39,7 @@ pub struct Core {
     pub question_place: Vec<Signal<In, Position>>,
     pub completed: Vec<Signal<Out, Completion>>,
     pub sides: Vec<Signal<Out, Sides>>,
+    pub nearest: Vec<Signal<Out, NearVerdict>>,
     pub standing: Vec<Signal<Out, Standing>>,
     /// For runs of changes: as the ports of the engine of these names; the point of an `Insert` that comes, the number
     /// of ids in use, and the ports of [`CommandPort`] for them; the capacity.
@@ -124,6 +125,7 @@ impl Core {
             question_place: vec![Signal::default()],
             completed: vec![Signal::default()],
             sides: vec![Signal::default()],
+            nearest: vec![Signal::default()],
             standing: vec![Signal::default()],
             launches: vec![Signal::default()],
             launch: vec![Signal::default()],
@@ -231,6 +233,7 @@ impl Logic for Core {
             self.engine.question_place[i].next = self.question_place[i].val();
             self.completed[i].next = self.engine.completed[i].val();
             self.sides[i].next = self.engine.sides[i].val();
+            self.nearest[i].next = self.engine.nearest[i].val();
             self.view[i].awaits_command.next = self.command_port.awaits_command[i].val();
             self.view[i].clearing.next = self.command_port.clearing.val();
             self.view[i].deal.next = self.command_port.deal.val();

@@ -1,4 +1,5 @@
-//! The core of a mesh that stands: as [`Core`], and it also does runs of `Locate`, `Interpolate` and `InsertAs`.
+//! The core of a mesh that stands: as [`Core`], and it also does runs of `Locate`, `Interpolate`, `Nearest` and
+//! `InsertAs`.
 //!
 //! ```text
 //! commands -> RunGate --> Core ------- completed visits --+
@@ -82,6 +83,7 @@ impl Logic for LivingCore {
         self.questions.completion.next = self.completion.val();
         self.questions.completion.next.done = self.completion.val().done & self.questions.asks.val();
         self.questions.sides.next = self.core.sides[0].val();
+        self.questions.nearest.next = self.core.nearest[0].val();
         self.core.question_runs[0].next = self.questions.asks.val();
         self.questions.capacity.next = self.core.most[0].val();
         self.questions.arrived.next = self.core.arrived[0].val();

@@ -5,7 +5,8 @@ use incircle_hdl::leaf::{
     PacedMemory, SharedMemory,
 };
 use incircle_hdl::predicate::{
-    CrossProduct, DotProduct, EdgeSigns, PointDifference, SideDelay, VertexOrder, VisitPredicates, WideProduct,
+    CornerPairs, CrossProduct, DotProduct, EdgeSigns, PointDifference, SideDelay, VertexOrder, VisitPredicates,
+    WideProduct,
 };
 
 use crate::exported::block;
@@ -47,6 +48,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(WideProduct::default(), "wide_product"),
         block(EdgeSigns::new(2), "edge_signs"),
         block(SideDelay::new(6), "side_delay"),
+        block(CornerPairs::default(), "corner_pairs"),
         block(VertexOrder::new(1), "vertex_order"),
         block(VisitPredicates::default(), "visit_predicates"),
     ]

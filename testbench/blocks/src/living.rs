@@ -4,7 +4,8 @@ use incircle_protocol::{Config, FULL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::living::{
-    ChangeEnds, ItemQueues, LatePoints, PartQueue, QuestionStep, Questions, RunGate, RunPort, StandingView, VertexCheck,
+    ChangeEnds, ItemQueues, LatePoints, NearSearch, PartQueue, QuestionStep, Questions, RunGate, RunPort, StandingView,
+    VertexCheck,
 };
 
 /// Name of the root module and Verilog of each block.
@@ -13,7 +14,8 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
     vec![
         block(ItemQueues::new(TINY), "living_item_queues_2"),
         block(ItemQueues::new(most_contexts), "living_item_queues_24"),
-        block(QuestionStep::default(), "living_question_step"),
+        block(NearSearch::new(most_contexts), "living_near_search"),
+        block(QuestionStep::new(most_contexts), "living_question_step"),
         block(PartQueue::default(), "living_part_queue"),
         block(RunPort::default(), "living_run_port"),
         block(RunGate::default(), "living_run_gate"),

@@ -4,7 +4,8 @@ use incircle_protocol::{SMALL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::engine::{
-    Issue, LinkWrite, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline, VisitReader, WritePort,
+    Issue, LinkWrite, NearCorner, NearLogic, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline,
+    VisitReader, WritePort,
 };
 use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
 
@@ -20,6 +21,8 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(Issue::new(5), "issue_5"),
         block(VisitReader::default(), "visit_reader"),
         block(VerdictLogic::default(), "verdict_logic"),
+        block(NearCorner::default(), "near_corner"),
+        block(NearLogic::default(), "near_logic"),
         block(VisitJudge::default(), "visit_judge"),
         block(VisitPipeline::new(TINY), "visit_pipeline_tiny"),
         block(VisitPipeline::new(SMALL), "visit_pipeline_small"),

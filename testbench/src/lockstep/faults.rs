@@ -195,10 +195,11 @@ pub const QUESTION_FAULTS: &[Fault] = &[
         name: "gate_passes_interpolate_on",
         pieces: &[piece(
             "begins = @;",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == insert_code))",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == insert_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == nearest_code) | (code == insert_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == nearest_code) | (code == insert_code))",
         )],
     },
+    Fault { name: "gate_passes_nearest_on", pieces: &[piece("nearest_code = @;", "32'ha", "32'h8")] },
     Fault {
         name: "answer_of_a_run_goes_first",
         pieces: &[piece("gives_run = @;", "run_response$valid & (~core_response$valid)", "run_response$valid")],
@@ -219,8 +220,8 @@ pub const QUESTION_FAULTS: &[Fault] = &[
         name: "hint_follows_the_search",
         pieces: &[piece(
             "arrives = @;",
-            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)] & (~is_search)",
-            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)]",
+            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)] & is_walk",
+            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)] & (is_walk | is_search)",
         )],
     },
     Fault {
@@ -241,6 +242,68 @@ pub const QUESTION_FAULTS: &[Fault] = &[
             "(~head_is_due$q) & (~some_are_left$q) & (~valid$q)",
             "(~head_is_due$q) & (~some_are_left$q)",
         )],
+    },
+    // The search for the nearest vertex: the words of its runs, the nearest corner, the chains, the centre.
+    Fault { name: "length_of_nearest_is_unknown", pieces: &[piece("if (@) begin", "is_short", "1'b0")] },
+    Fault {
+        name: "distance_is_not_compared",
+        pieces: &[piece("compared$d[(64'h0)+:(1)] = @;", "distance_1 < distance_0", "1'b0")],
+    },
+    Fault {
+        name: "slot_decides_a_tie",
+        pieces: &[
+            piece("(pairs[(64'h3)+:(1)] & (@))", "~rank[(64'h6)+:(1)]", "1'b0"),
+            piece("(pairs[(64'h4)+:(1)] & (@))", "~rank[(64'h7)+:(1)]", "1'b0"),
+            piece("(pairs[(64'h5)+:(1)] & (@))", "~rank[(64'h8)+:(1)]", "1'b0"),
+        ],
+    },
+    Fault {
+        name: "infinite_vertex_is_near",
+        pieces: &[
+            piece("infinite_0 = @;", "delay_infinite_0$flag_out", "1'b0"),
+            piece("infinite_1 = @;", "delay_infinite_1$flag_out", "1'b0"),
+            piece("infinite_2 = @;", "delay_infinite_2$flag_out", "1'b0"),
+        ],
+    },
+    Fault {
+        name: "chains_end_before_90_degrees",
+        pieces: &[
+            piece("next_is_past = (~nearest[(64'h4)+:(1)]) & (@)", "~nearest[(64'h2)+:(1)]", "1'b1"),
+            piece("before_is_past = (~nearest[(64'h5)+:(1)]) & (@)", "~nearest[(64'h3)+:(1)]", "1'b1"),
+        ],
+    },
+    Fault {
+        name: "chains_go_on_behind_90_degrees",
+        pieces: &[
+            piece("ends_right = @ | looks_away", "next_is_past", "1'b0"),
+            piece("ends_left = @ | (nearest", "before_is_past", "1'b0"),
+        ],
+    },
+    Fault { name: "no_chain_to_the_right", pieces: &[piece("verdict[(64'h2)+:(1)] = @;", "~ends_right", "1'b0")] },
+    Fault { name: "no_chain_to_the_left", pieces: &[piece("verdict[(64'h3)+:(1)] = @;", "~ends_left", "1'b0")] },
+    Fault {
+        name: "chains_pass_the_far_side",
+        pieces: &[piece(
+            "looks_away = @;",
+            "(~nearest[(64'h4)+:(1)]) & (~nearest[(64'h5)+:(1)]) & next_is_left & before_is_right",
+            "1'b0",
+        )],
+    },
+    Fault {
+        name: "chain_comes_back_across_the_hull",
+        pieces: &[piece("comes_back_right = @;", "nearest[(64'h5)+:(1)] & next_is_left", "1'b0")],
+    },
+    Fault {
+        name: "old_centre_counts",
+        pieces: &[piece("counts = @;", "follows & (~(parity_entry[32'h0] ^ state[(64'h0)+:(1)]))", "follows")],
+    },
+    Fault {
+        name: "nearer_vertex_is_passed",
+        pieces: &[piece("is_nearer = @;", "nearest[(64'h0)+:(2)] == first_slot", "1'b0")],
+    },
+    Fault {
+        name: "item_ends_with_its_first_chain",
+        pieces: &[piece("(stays & (~goes_on) & (@));", "~other_goes", "1'b1")],
     },
 ];
 

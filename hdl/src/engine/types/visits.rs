@@ -101,6 +101,19 @@ crate::packed! {
         pub walk_next: TriangleId,
     }
 
+    /// The corner of a visited record that is nearest to the place of a question, and the search round it: see
+    /// [`NearLogic`](crate::engine::NearLogic).
+    pub struct NearVerdict {
+        /// The slot of the corner in the record as rotated.
+        pub slot: Slot,
+        /// A search that begins in the record has a chain to the right, and one to the left.
+        pub begins_right: bool,
+        pub begins_left: bool,
+        /// A chain to the right that has come to the record goes on, and one to the left.
+        pub goes_right: bool,
+        pub goes_left: bool,
+    }
+
     /// A visit that completes in the next clock, with its record; its verdict is not known yet.
     pub struct Upcoming {
         /// A visit completes in the next clock; without it the rest is arbitrary.

@@ -20,6 +20,8 @@
 //! ([`VerdictLogic`]).
 
 mod issue;
+mod near_corner;
+mod near_logic;
 mod push_port;
 mod verdict_logic;
 mod visit_judge;
@@ -27,6 +29,8 @@ mod visit_pipeline;
 mod visit_reader;
 
 pub use issue::Issue;
+pub use near_corner::NearCorner;
+pub use near_logic::NearLogic;
 pub use push_port::PushPort;
 pub use verdict_logic::VerdictLogic;
 pub use visit_judge::VisitJudge;

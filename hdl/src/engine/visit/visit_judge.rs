@@ -16,8 +16,10 @@
 //! corner            .  .  .  .  .  .  .  .  .  ./^^  .
 //! ```
 
+use super::near_corner::NearCorner;
+use super::near_logic::NearLogic;
 use super::verdict_logic::VerdictLogic;
-use crate::engine::types::{Turned, Verdict};
+use crate::engine::types::{NearVerdict, Turned, Verdict};
 use crate::predicate::{Corners, Point, Sides, VisitPredicates};
 use rust_hdl_core::prelude::*;
 
@@ -34,8 +36,13 @@ pub struct VisitJudge {
     /// Signs and values of its three orient2d, for the corners as stored, in clock 10: in a core that answers
     /// questions.
     pub sides: Vec<Signal<Out, Sides>>,
+    /// In such a core as well: the rotated record in clock 0, and the search for the nearest vertex in clock 10.
+    pub rotated: Vec<Signal<In, Turned>>,
+    pub nearest: Vec<Signal<Out, NearVerdict>>,
     predicates: VisitPredicates,
     verdict_logic: VerdictLogic,
+    near_corner: Vec<NearCorner>,
+    near_logic: Vec<NearLogic>,
 }
 
 impl VisitJudge {
@@ -43,8 +50,20 @@ impl VisitJudge {
     pub const LATENCY: usize = VisitPredicates::LATENCY;
 
     /// The judge of a core that answers questions.
+    ///
+    /// # Panics
+    /// If the nearest corner is known in another clock than the signs, which is a fault in this source.
     pub fn with_sides() -> Self {
-        Self { sides: vec![Signal::default()], predicates: VisitPredicates::with_sides(), ..Self::default() }
+        assert_eq!(NearCorner::LATENCY, Self::LATENCY, "all findings of a visit come together");
+        Self {
+            sides: vec![Signal::default()],
+            rotated: vec![Signal::default()],
+            nearest: vec![Signal::default()],
+            predicates: VisitPredicates::with_sides(),
+            near_corner: vec![NearCorner::default()],
+            near_logic: vec![NearLogic::default()],
+            ..Self::default()
+        }
     }
 }
 
@@ -59,6 +78,14 @@ impl Logic for VisitJudge {
         self.verdict.next = self.verdict_logic.verdict.val();
         for i in 0..self.sides.len() {
             self.sides[i].next = self.predicates.sides[i].val();
+            self.near_corner[i].clock.next = self.clock.val();
+            self.near_corner[i].corners.next = self.corners.val();
+            self.near_corner[i].rotated.next = self.rotated[i].val();
+            self.near_corner[i].pairs.next = self.predicates.pairs[i].val();
+            self.near_logic[i].nearest.next = self.near_corner[i].nearest.val();
+            self.near_logic[i].edges.next = self.predicates.signs.val().edges;
+            self.near_logic[i].first_slot.next = self.turned.val().slot;
+            self.nearest[i].next = self.near_logic[i].verdict.val();
         }
     }
 }

@@ -30,8 +30,8 @@ use super::issue::Issue;
 use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
-    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, Position, Push, RecordRead, TriangleId, Turned,
-    Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS, VISIT_BITS,
+    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, NearVerdict, Position, Push, RecordRead,
+    TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS, VISIT_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
@@ -57,9 +57,10 @@ pub struct VisitPipeline {
     /// The visit that completes in this clock; and the one that completes in the next clock unless reset comes first.
     pub completion: Signal<Out, Completion>,
     pub early: Signal<Out, Upcoming>,
-    /// Signs and values of the three orient2d of the visit that completes in this clock, for the corners as stored: in
-    /// a core that answers questions.
+    /// Signs and values of the three orient2d of the visit that completes in this clock, for the corners as stored, and
+    /// the search for the nearest vertex: in a core that answers questions.
     pub sides: Vec<Signal<Out, Sides>>,
+    pub nearest: Vec<Signal<Out, NearVerdict>>,
     /// A record that the read-out wants, only while no visit is in flight; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
@@ -102,6 +103,7 @@ pub struct VisitPipeline {
     read_valid2: DFF<Bit>,
     completes: DFF<Completion>,
     kept_sides: Vec<DFF<Sides>>,
+    kept_near: Vec<DFF<NearVerdict>>,
     shifted: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<15>>,
 }
@@ -140,7 +142,9 @@ impl VisitPipeline {
         Self {
             judge: VisitJudge::with_sides(),
             sides: vec![Signal::default()],
+            nearest: vec![Signal::default()],
             kept_sides: vec![DFF::default()],
+            kept_near: vec![DFF::default()],
             ..Self::new(config)
         }
     }
@@ -225,6 +229,10 @@ impl Logic for VisitPipeline {
             self.kept_sides[i].clock.next = self.clock.val();
             self.kept_sides[i].d.next = self.judge.sides[i].val();
             self.sides[i].next = self.kept_sides[i].q.val();
+            self.judge.rotated[i].next = self.reader.turned.val();
+            self.kept_near[i].clock.next = self.clock.val();
+            self.kept_near[i].d.next = self.judge.nearest[i].val();
+            self.nearest[i].next = self.kept_near[i].q.val();
         }
 
         self.shifted.next = self.valid.q.val() << self.one.val();

@@ -2,40 +2,38 @@
 //! the parts of its answer. The insertion engine carries out the items of changes.
 //!
 //! Hardware twin: the block `Questions`. During a run of questions no insertion is at work, so all visits in the pipeline
-//! are those of questions, and no record changes. In this model such a visit is therefore an entry of a delay line, and
-//! its record is read when the visit completes.
+//! are those of questions, and no record changes.
 
 mod changes;
 mod item_queues;
+mod near;
 mod part_queue;
 mod run_port;
 mod signals;
 mod step;
+mod visits;
 
 use super::beat::Beat;
 use super::memory::Memory;
 use changes::{Around, Changes};
 use incircle_protocol::{Config, RunKind};
 use item_queues::ItemQueues;
+use near::Search;
 use part_queue::{Part, PartQueue};
 use run_port::RunPort;
 use signals::Item;
 pub(super) use signals::{Events, ItemEnd, Launch, Signals};
-use std::collections::VecDeque;
-use step::{Followed, Visit};
-
-/// Number of clocks from the request of a visit to the requests that follow it.
-const LOOP: usize = 18;
+use visits::{Bundle, Visit, Visits};
 
 #[derive(Clone, Debug)]
 pub(super) struct Questions {
     port: RunPort,
     queues: ItemQueues,
     parts: PartQueue,
-    /// The visits in the pipeline, the oldest first, with `None` for clocks without a visit.
-    visits: VecDeque<Option<Visit>>,
-    /// The item of each context.
+    visits: Visits,
+    /// The item of each context, and its search for the nearest vertex.
     items: Vec<Item>,
+    searches: Vec<Search>,
     /// The record at which the last walk of each context has ended.
     hints: Vec<u32>,
     changes: Changes,
@@ -48,8 +46,9 @@ impl Questions {
             port: RunPort::new(),
             queues: ItemQueues::new(contexts),
             parts: PartQueue::default(),
-            visits: VecDeque::from(vec![None; LOOP]),
+            visits: Visits::new(),
             items: vec![Item::default(); contexts],
+            searches: vec![Search::default(); contexts],
             hints: vec![0; contexts],
             changes: Changes::new(contexts, config.points),
         }
@@ -57,7 +56,7 @@ impl Questions {
 
     /// Whether the core answers runs of this kind.
     pub(super) fn answers(kind: RunKind) -> bool {
-        matches!(kind, RunKind::Locate | RunKind::Interpolate | RunKind::InsertAs)
+        matches!(kind, RunKind::Locate | RunKind::Interpolate | RunKind::Nearest | RunKind::InsertAs)
     }
 
     /// Whether a run is under way.
@@ -117,25 +116,20 @@ impl Questions {
     /// Simulates one edge. Returns the vertex that has come into the mesh with an item of a change.
     pub(super) fn clock(&mut self, signals: &Signals, events: &Events, memory: &Memory) -> Option<u32> {
         let asks = self.asks();
-        let visit = self.visits.pop_front().flatten();
-        let followed = visit.map(|visit| {
-            let place = self.items[visit.context].place;
-            step::follow(&visit, memory.record(visit.record), place, memory)
-        });
-        let next = followed.and_then(|followed| followed.next());
+        let visit = self.visits.completion();
         let context = visit.map_or(0, |visit| visit.context);
-        let found_end = followed.is_some_and(|followed| matches!(followed, Followed::End(..)));
-        let came = match followed {
-            Some(Followed::End(outcome, located)) => {
-                Some(Part { number: self.items[context].number, outcome, located })
-            }
-            _ => None,
-        };
-        if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives())) {
+        let followed = visit.map(|visit| {
+            let (place, search) = (self.items[context].place, &mut self.searches[context]);
+            step::follow(self.port.kind(), &visit, memory.record(visit.record), place, search, memory)
+        });
+        let asked = followed.map_or(Bundle::default(), |followed| followed.visits);
+        let found = followed.and_then(|followed| followed.end);
+        let came = found.map(|(outcome, located)| Part { number: self.items[context].number, outcome, located });
+        if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives)) {
             self.hints[context] = visit.record;
         }
         let (may_launch, ends) = match asks {
-            true => (self.parts.has_room() && next.is_none(), found_end.then_some(context)),
+            true => (self.parts.has_room() && asked.is_empty(), found.map(|_| context)),
             false => {
                 let end = events.ends.or(events.solo_ends).filter(|_| self.changes.has_changed);
                 (events.launch.is_some(), end.map(|end| end.context))
@@ -159,9 +153,9 @@ impl Questions {
         let change = self.changes.clock(&around, events, &self.items);
         let walk = done.launched.and_then(|(context, item)| {
             self.items[context] = item;
-            asks.then(|| Visit::walk(context, self.hints[context]))
+            asks.then(|| Bundle::one(Visit::walk(context, self.hints[context])))
         });
-        self.visits.push_back(next.or(walk));
+        self.visits.clock(walk.unwrap_or(asked));
         let is_over = self.parts.is_over() && (asks || events.all_rest);
         let head = self.port.head(signals.signature);
         let begins = done.launched.is_some() && self.port.is_active() || change.is_noted;

@@ -27,8 +27,8 @@ impl ClockModel {
         self
     }
 
-    /// The same core with the runs that the hardware has so far: `Locate`, `Interpolate` and `InsertAs`. Its identity
-    /// does not offer runs.
+    /// The same core with the runs that the hardware has so far: `Locate`, `Interpolate`, `Nearest` and `InsertAs`. Its
+    /// identity does not offer runs.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         self.questions = Some(Questions::new(self.config));

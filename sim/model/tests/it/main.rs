@@ -12,6 +12,7 @@ mod clock {
     mod defects;
     mod hang;
     mod orders;
+    mod questions;
     mod read_out;
     mod view;
     mod waiting;

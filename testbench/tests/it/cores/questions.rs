@@ -1,5 +1,5 @@
 //! Runs cores that answer questions beside their model, and compares every root port at every clock: random scripts of
-//! insertions and runs of `Locate` and `Interpolate`, crossed with idle clocks and back-pressure. All answers are
+//! insertions and runs of `Locate`, `Interpolate` and `Nearest`, crossed with idle clocks and back-pressure. All answers are
 //! compared with the model by commands, which knows no clock.
 
 use incircle_model::CommandModel;
@@ -76,8 +76,10 @@ fn common_divisor(a: u64, b: u64) -> u64 {
     }
 }
 
-/// Runs of a script without parts, then parts by their outcome, for `Locate` and for `Interpolate`.
-type Seen = [[usize; 5]; 2];
+/// Runs of a script without parts, then parts by their outcome, for each kind of [`KINDS`].
+type Seen = [[usize; 5]; 3];
+
+const KINDS: [RunKind; 3] = [RunKind::Locate, RunKind::Interpolate, RunKind::Nearest];
 
 /// Runs the script, and compares the answers.
 fn run(
@@ -113,7 +115,7 @@ fn run(
             Step::Ask(kind, _) => {
                 let found = findings(*kind, answer, &arrived);
                 assert_eq!(found, findings(*kind, expected, &arrived));
-                let seen = &mut seen[usize::from(*kind == RunKind::Interpolate)];
+                let seen = &mut seen[KINDS.iter().position(|other| other == kind).expect("a kind of the core")];
                 seen[0] += usize::from(found.is_empty());
                 found.iter().for_each(|(outcome, _)| seen[*outcome as usize] += 1);
             }
@@ -154,7 +156,7 @@ fn script(random: &mut SplitMix64, config: Config, points: u64, places: u64) -> 
         if random.once_in(4) {
             steps.push(Step::Counters);
         }
-        let kind = if random.once_in(2) { RunKind::Locate } else { RunKind::Interpolate };
+        let kind = KINDS[random.below(3) as usize];
         steps.push(Step::Ask(kind, words(random, places, side.min((1 << 16) - 2) + 2)));
     }
     steps
@@ -173,8 +175,10 @@ fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, place
         let found = found.unwrap_or_else(|mismatch| panic!("{mismatch}"));
         seen.as_flattened_mut().iter_mut().zip(found.as_flattened()).for_each(|(sum, count)| *sum += count);
     }
+    // A `Nearest` has one outcome.
+    let all = || seen[..2].as_flattened().iter().chain(&seen[2][..2]);
     assert!(
-        seen.as_flattened().iter().all(|&count| count > scripts / 30),
+        all().all(|&count| count > scripts / 30),
         "for each kind, runs without parts, then parts by outcome: {seen:?}"
     );
 }

@@ -9,8 +9,8 @@ use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
     Attempt, Beyond, Bundle, Case, ChangeEvents, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal,
-    Entry, EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, Outcome, Passed, Plan,
-    PlanWrite, Planned, Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead,
+    Entry, EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, NearVerdict, Outcome, Passed,
+    Plan, PlanWrite, Planned, Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead,
     SeedProgress, SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict,
     Visit, VisitEvents, Write, WriteEnables,
 };
@@ -18,7 +18,7 @@ use incircle_hdl::ethernet::types::{OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::living::types::{ContextEnd, DealtItem, Finding, Launch, PartCame, RunHead, Standing};
 use incircle_hdl::mesh::{ReadRecord, Record};
-use incircle_hdl::predicate::{Corners, EdgeFlags, OrderFlags, Sides, Signs, Weights};
+use incircle_hdl::predicate::{Corners, EdgeFlags, NearSigns, OrderFlags, PairFlags, Sides, Signs, Weights};
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FifoRoom, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
@@ -179,8 +179,11 @@ packed_values!(
     InnerWrite,
     LockClear,
     LockWrite,
+    NearSigns,
+    NearVerdict,
     OrderFlags,
     Outcome,
+    PairFlags,
     Passed,
     PlanWrite,
     Pointer,

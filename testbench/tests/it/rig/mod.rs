@@ -13,6 +13,7 @@ pub mod flip_mesh;
 pub mod ids;
 pub mod lockstep;
 pub mod memories;
+pub mod nearest;
 pub mod random_rings;
 pub mod record_beats;
 pub mod record_count;

@@ -58,6 +58,11 @@ impl RunPort {
         self.state != State::Idle
     }
 
+    /// The kind of the run under way, or of the last one.
+    pub(super) fn kind(&self) -> RunKind {
+        self.kind
+    }
+
     pub(super) fn is_ready(&self) -> bool {
         match self.state {
             State::Count => true,

@@ -2,84 +2,119 @@
 //!
 //! Hardware twin: the block `QuestionStep`.
 
+use super::near::{Near, Search, Step};
+use super::visits::{Aim, Bundle, Visit};
 use crate::clock::memory::Memory;
 use crate::mesh::Record;
 use crate::predicate::{orient2d, Point};
-use incircle_protocol::{Located, Outcome};
+use incircle_protocol::{Located, Outcome, RunKind};
 
-/// A visit of a question.
+/// The result of a visit: the visits that follow, or the end of the item with what it has found.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Visit {
-    pub context: usize,
-    pub record: u32,
-    /// In the search along the hull: the end of the hull edge of the ghost triangle that was visited before.
-    hull_end: Option<u32>,
-}
-
-impl Visit {
-    pub(super) fn walk(context: usize, record: u32) -> Self {
-        Self { context, record, hull_end: None }
-    }
-}
-
-/// The result of a visit: the next visit, or the end of the item with what it has found.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Followed {
-    Visit(Visit),
-    /// A visit of the search along the hull, after the walk has arrived.
-    Search(Visit),
-    End(Outcome, Located),
+pub(super) struct Followed {
+    pub visits: Bundle,
+    pub end: Option<(Outcome, Located)>,
+    /// Whether a walk has reached the record that holds its place.
+    pub arrives: bool,
 }
 
 impl Followed {
-    /// The visit that follows.
-    pub(super) fn next(self) -> Option<Visit> {
-        match self {
-            Self::Visit(visit) | Self::Search(visit) => Some(visit),
-            Self::End(..) => None,
+    fn visit(visit: Visit) -> Self {
+        Self { visits: Bundle::one(visit), end: None, arrives: false }
+    }
+
+    fn end(outcome: Outcome, located: Located) -> Self {
+        Self { visits: Bundle::default(), end: Some((outcome, located)), arrives: false }
+    }
+
+    fn of(step: Step) -> Self {
+        match step {
+            Step::Visits(visits) => Self { visits, end: None, arrives: false },
+            Step::Found(vertex) => Self::end(Outcome::Vertex, Located { vertices: [vertex, 0, 0], weights: [0; 3] }),
         }
     }
 
-    /// Whether a walk has reached the record that holds its place.
-    pub(super) fn arrives(self) -> bool {
-        match self {
-            Self::Visit(_) => false,
-            Self::Search(_) => true,
-            Self::End(outcome, _) => outcome != Outcome::Outside,
-        }
+    fn arrived(self) -> Self {
+        Self { arrives: true, ..self }
     }
 }
 
-/// Finds what follows the visit of this record for the place `p`.
-pub(super) fn follow(visit: &Visit, record: Record, p: Point, memory: &Memory) -> Followed {
-    let r = record.v.map(|v| memory.vertex(v));
-    let sides = [orient2d(r[1], r[2], p), orient2d(r[2], r[0], p), orient2d(r[0], r[1], p)];
-    let walk = |record: u32| Followed::Visit(Visit { record, ..*visit });
-    if let Some(slot) = record.v.iter().position(|&v| v == memory.infinite) {
-        // Counter-clockwise: the infinite vertex, the end of the hull edge, its start.
-        let end = record.v[(slot + 1) % 3];
-        let before = Visit { record: record.n[(slot + 1) % 3], hull_end: Some(end), ..*visit };
-        return match (visit.hull_end, sides[slot] > 0) {
-            (None, true) => Followed::Search(before),
-            (Some(_), true) => Followed::Visit(before),
-            (None, false) => walk(record.n[slot]),
-            (Some(hull_end), false) => {
-                Followed::End(Outcome::Outside, Located { vertices: [end, hull_end, 0], weights: [0; 3] })
+/// Finds what follows the visit of this record for the place `p` in a run of this kind.
+pub(super) fn follow(
+    kind: RunKind,
+    visit: &Visit,
+    record: Record,
+    p: Point,
+    search: &mut Search,
+    memory: &Memory,
+) -> Followed {
+    match visit.aim {
+        Aim::Around { left, parity } => {
+            let near = Near::of(&record, p, memory);
+            Followed::of(search.follow(visit, &record, &near, left, parity))
+        }
+        Aim::Look => Followed::of(search.begin(visit, &record, &Near::of(&record, p, memory))),
+        Aim::Hull { end } => follow_hull(visit, &record, p, end, memory),
+        Aim::Walk => match walk(&record, p, memory) {
+            Some(next) => Followed::visit(Visit::walk(visit.context, next)),
+            None if kind == RunKind::Nearest => {
+                Followed::of(search.begin(visit, &record, &Near::of(&record, p, memory))).arrived()
             }
-        };
+            None => arrive(visit, &record, p, memory).arrived(),
+        },
+    }
+}
+
+/// The three orient2d of a place with the sides of a record.
+fn sides(record: &Record, p: Point, memory: &Memory) -> [i64; 3] {
+    let r = record.v.map(|v| memory.vertex(v));
+    [orient2d(r[1], r[2], p), orient2d(r[2], r[0], p), orient2d(r[0], r[1], p)]
+}
+
+fn ghost_slot(record: &Record, memory: &Memory) -> Option<usize> {
+    record.v.iter().position(|&v| v == memory.infinite)
+}
+
+/// The next record of a walk, or `None` if this record holds the place.
+fn walk(record: &Record, p: Point, memory: &Memory) -> Option<u32> {
+    let sides = sides(record, p, memory);
+    if let Some(slot) = ghost_slot(record, memory) {
+        return Some(record.n[slot]).filter(|_| sides[slot] <= 0);
     }
     let lowest = sides.into_iter().min().unwrap_or(0);
-    if lowest < 0 {
-        let slot = sides.iter().position(|&side| side == lowest).unwrap_or(0);
-        return walk(record.n[slot]);
+    let slot = sides.iter().position(|&side| side == lowest).unwrap_or(0);
+    Some(record.n[slot]).filter(|_| lowest < 0)
+}
+
+/// The walk of a `Locate` or `Interpolate` has reached the record that holds its place.
+fn arrive(visit: &Visit, record: &Record, p: Point, memory: &Memory) -> Followed {
+    if let Some(slot) = ghost_slot(record, memory) {
+        return Followed::visit(hull_before(visit, record, slot));
     }
     let mut located = Located::default();
     let mut count = 0;
-    for (slot, side) in sides.into_iter().enumerate().filter(|&(_, side)| side != 0) {
+    for (slot, side) in sides(record, p, memory).into_iter().enumerate().filter(|&(_, side)| side != 0) {
         located.vertices[count] = record.v[slot];
         located.weights[count] = side.unsigned_abs();
         count += 1;
     }
     let outcome = [Outcome::Vertex, Outcome::Edge, Outcome::Triangle][count.max(1) - 1];
-    Followed::End(outcome, located)
+    Followed::end(outcome, located)
+}
+
+/// The ghost triangle before one that sees the place has been visited.
+fn follow_hull(visit: &Visit, record: &Record, p: Point, hull_end: u32, memory: &Memory) -> Followed {
+    let slot = ghost_slot(record, memory).unwrap_or(0);
+    if sides(record, p, memory)[slot] > 0 {
+        return Followed::visit(hull_before(visit, record, slot));
+    }
+    let vertices = [record.v[(slot + 1) % 3], hull_end, 0];
+    Followed::end(Outcome::Outside, Located { vertices, weights: [0; 3] })
+}
+
+/// The visit of the ghost triangle before one on the hull. Counter-clockwise, a ghost triangle has the infinite vertex,
+/// the end of the hull edge, its start.
+fn hull_before(visit: &Visit, record: &Record, slot: usize) -> Visit {
+    let far = (slot + 1) % 3;
+    Visit { record: record.n[far], aim: Aim::Hull { end: record.v[far] }, ..*visit }
 }

@@ -1,15 +1,23 @@
 //! Runs `QuestionStep` in Rust and in Verilog beside a statement of the rules: all three must agree.
 
+use crate::rig::nearest::Nearest;
 use crate::rig::stepper::bundles::{flip, id, Visit};
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_model::{orientation, Point, Record};
 use incircle_hdl::living::QuestionStep;
+use incircle_protocol::{Config, TINY};
 use incircle_testkit::SplitMix64;
 
-named_ports!(QuestionStep, [completion, sides], [asks, bundle, arrives, ends, finding, corner]);
+named_ports!(
+    QuestionStep,
+    [is_nearest, completion, sides, nearest],
+    [asks, bundle, arrives, ends, finding, corner],
+    clock
+);
 
 const ROUNDS: usize = 20_000;
 const INFINITE: u64 = 0x7fff;
+const MOST_CONTEXTS: Config = Config { contexts: 24, ..TINY };
 
 /// What must follow a visit.
 #[derive(Debug, PartialEq, Eq)]
@@ -55,10 +63,79 @@ fn geometry(random: &mut SplitMix64) -> ([Point; 3], Point) {
     }
 }
 
+fn new_block(is_nearest: bool) -> Stepper<QuestionStep> {
+    let mut block = Stepper::new("living_question_step", QuestionStep::new(MOST_CONTEXTS), 1);
+    block.set("is_nearest", is_nearest);
+    block
+}
+
+/// Shows a walk in a run of `Nearest` that has come to a record with these chains, and then the visit of the chain to
+/// the left, which ends. `holds` says whether the record holds the place.
+fn search(block: &mut Stepper<QuestionStep>, random: &mut SplitMix64, holds: bool, begins: [bool; 2]) {
+    let record = Record { v: [1, 2, 3], n: [(); 3].map(|()| id(random)) };
+    let mut walk = Visit { context: random.below(24), ..Visit::look(id(random)) };
+    let slot = random.below(3) as usize;
+    let links = record.turned(slot).n;
+    let walk_next = id(random);
+    block.set("completion_done", true);
+    block.set("completion_turned", record.pack_turned(0, [false; 3], INFINITE));
+    block.set("completion_visit", walk.packed());
+    block.set("located", holds);
+    block.set("walk_next", walk_next);
+    block.set("nearest", Nearest { slot, begins, goes: begins }.packed(0));
+    block.settle();
+    let has_chain = begins.contains(&true);
+    block.expect("arrives", holds);
+    block.expect("ends", holds && !has_chain);
+    block.expect("asks", !holds || has_chain);
+    if !holds {
+        assert_eq!(Visit::of_bundle(block.get("bundle")).record, walk_next);
+        block.expect_masked("bundle", 3, 0u128);
+    } else if !has_chain {
+        block.expect("finding_outcome", 1u64);
+        block.expect("finding_v0", record.v[slot]);
+    } else {
+        let first = Visit::of_bundle(block.get("bundle"));
+        assert!(first.rotates && first.cavity_record == walk.record && first.context == walk.context);
+        assert_eq!((first.entry, first.record), if begins[1] { (6, links[1]) } else { (2, links[2]) });
+        block.expect_masked("bundle", 3, u128::from(begins == [true; 2]));
+    }
+    block.edge();
+    if holds && begins[1] {
+        walk = Visit::of_bundle(block.get("bundle"));
+        walk.entry = 6;
+        block.set("completion_visit", walk.packed());
+        block.set("nearest", Nearest { slot: 1, begins, goes: [false; 2] }.packed(0));
+        block.settle();
+        block.expect("arrives", false);
+        block.expect("asks", false);
+        block.expect("ends", !begins[0]);
+        block.expect("finding_outcome", 1u64);
+        block.expect("finding_v0", record.v[1]);
+        block.edge();
+    }
+    block.set("completion_done", false);
+    block.settle();
+    for port in ["arrives", "asks", "ends"] {
+        block.expect(port, false);
+    }
+    block.edge();
+}
+
+#[test]
+fn question_step_searches_in_a_run_of_nearest() {
+    let mut random = SplitMix64::new(85);
+    let mut block = new_block(true);
+    for _ in 0..ROUNDS / 10 {
+        let [holds, right, left] = [(); 3].map(|()| flip(&mut random));
+        search(&mut block, &mut random, holds, [right, left]);
+    }
+}
+
 #[test]
 fn question_step_follows_the_rules() {
     let mut random = SplitMix64::new(61);
-    let mut block = Stepper::new("living_question_step", QuestionStep::default(), 1);
+    let mut block = new_block(false);
     let mut seen = [0; 5];
     for _ in 0..ROUNDS {
         let (corners, place) = geometry(&mut random);

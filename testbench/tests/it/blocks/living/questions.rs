@@ -3,8 +3,9 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
+use crate::rig::nearest::{distance, Nearest};
 use crate::rig::standing_mesh::{Mesh, INFINITE};
-use crate::rig::stepper::bundles::{unpack, Visit, VERDICT};
+use crate::rig::stepper::bundles::{unpack, Visit, BUNDLE, VERDICT};
 use crate::rig::stepper::{named_ports, Stepper};
 use crate::rig::visit_model::{orientation, point, word, Point};
 use incircle_hdl::living::Questions;
@@ -26,6 +27,7 @@ named_ports!(
         response.ready,
         completion,
         sides,
+        nearest,
         capacity,
         arrived,
         arrival,
@@ -46,22 +48,54 @@ named_ports!(
     clock
 );
 
-/// Number of clocks from the request of a visit to the requests that follow it.
-const LOOP: usize = 18;
+/// Number of clocks from the issue of a visit to the requests that follow it.
+const STAGES: usize = 16;
+/// Most visits of a context in flight: two chains, and a chain round the centre before.
+const MOST_VISITS: usize = 3;
 /// Clocks in which the counts of the queues are cleared, with those of the reset.
 const START: usize = 40;
 const LOCATE: u64 = 8;
 const INTERPOLATE: u64 = 9;
+const NEAREST: u64 = 10;
+/// The bits of a bundle that count only in visits of a chain, which have bit 1 of `entry`.
+const CAVITY_ENTRY: u128 = 0x3f << 21;
 
 /// The block with a mesh behind it.
 struct Rig {
     block: Stepper<Questions>,
     mesh: Mesh,
     places: Vec<Point>,
-    visits: VecDeque<Option<Visit>>,
+    pipeline: Pipeline,
     random: SplitMix64,
     /// Visits of the last run.
     visited: usize,
+}
+
+/// The visits in flight: those that enter the queue, those in it, the one that is issued, and those in the stages.
+struct Pipeline {
+    entering: Vec<Visit>,
+    queue: VecDeque<Visit>,
+    issued: Option<Visit>,
+    stages: VecDeque<Option<Visit>>,
+}
+
+impl Pipeline {
+    fn new() -> Self {
+        Self { entering: Vec::new(), queue: VecDeque::new(), issued: None, stages: VecDeque::from(vec![None; STAGES]) }
+    }
+
+    fn edge(&mut self, asked: Vec<Visit>) {
+        self.stages.push_back(self.issued.take());
+        self.queue.extend(self.entering.drain(..));
+        self.issued = self.queue.pop_front();
+        self.entering = asked;
+    }
+
+    /// Number of visits of a context in flight.
+    fn count(&self, context: u64) -> usize {
+        let staged = self.stages.iter().flatten().chain(&self.issued);
+        staged.chain(&self.queue).chain(&self.entering).filter(|visit| visit.context == context).count()
+    }
 }
 
 /// What the host does to the streams: it offers a word, and takes a beat, in one of so many clocks.
@@ -90,7 +124,7 @@ impl Rig {
             block,
             mesh: Mesh::new(Vec::new(), Vec::new()),
             places: vec![(0, 0); 24],
-            visits: VecDeque::from(vec![None; LOOP]),
+            pipeline: Pipeline::new(),
             random: SplitMix64::new(seed),
             visited: 0,
         }
@@ -107,16 +141,19 @@ impl Rig {
 
     /// Completes the visit of this clock.
     fn complete(&mut self) {
-        let visit = self.visits.pop_front().flatten();
+        let visit = self.pipeline.stages.pop_front().flatten();
         self.block.set("completion_done", visit.is_some());
         let Some(visit) = visit else { return };
         self.visited += 1;
         let record = self.mesh.records[visit.record as usize];
         let (corners, place) = (self.mesh.corners(&record), self.places[visit.context as usize]);
-        let verdict = record.verdict(0, corners, place, INFINITE);
+        let slot = record.slot(visit.rotates, visit.cavity_record);
+        let verdict = record.verdict(slot, corners, place, INFINITE);
+        let infinite = record.v.iter().position(|&vertex| vertex == INFINITE);
+        self.block.set("nearest", Nearest::of(corners, infinite, place).packed(slot));
         assert!(unpack(VERDICT, verdict)[5] < self.mesh.records.len() as u64);
         self.block.set("completion_visit", visit.packed());
-        self.block.set("completion_turned", record.pack_turned(0, [false; 3], INFINITE));
+        self.block.set("completion_turned", record.turned(slot).pack_turned(slot, [false; 3], INFINITE));
         self.block.set("completion_verdict", verdict);
         for (slot, port) in
             ["sides_flags_e0_zero", "sides_flags_e1_zero", "sides_flags_e2_zero"].into_iter().enumerate()
@@ -129,23 +166,33 @@ impl Rig {
 
     /// Passes an edge, and takes note of the visit that is asked for.
     fn edge(&mut self) {
-        let is_pushed = self.block.is("push_valid");
-        let pushed = is_pushed.then(|| Visit::of_bundle(self.block.get("push_bundle")));
-        if is_pushed {
-            assert_eq!(self.block.get_masked("push_bundle", 3), 0, "one visit at a time");
-        }
         self.block.expect("start_valid", false);
-        if let Some(visit) = pushed {
-            assert!(!visit.rotates && !visit.locks, "questions turn no record and take no lock");
-            assert!(self.visits.iter().flatten().all(|other| other.context != visit.context), "one visit a context");
+        let pushed = if self.block.is("push_valid") { self.pushed() } else { Vec::new() };
+        if let Some(visit) = pushed.first() {
+            assert!(!visit.locks, "questions take no lock");
+            assert!(pushed.len() + self.pipeline.count(visit.context) <= MOST_VISITS, "few visits of a context");
         }
         if self.block.is("position_valid") {
-            let context = self.block.get("position_context");
-            assert_eq!(pushed.map(|visit| visit.context), Some(context as u64), "a walk begins with its place");
+            let context = self.block.get("position_context") as u64;
+            assert_eq!(pushed.first().map(|visit| visit.context), Some(context), "a walk begins with its place");
+            assert_eq!(self.pipeline.count(context), 0, "a place changes while no visit of the context is in flight");
+            assert!(!pushed[0].rotates && pushed[0].entry == 0 && pushed.len() == 1, "a walk begins with one visit");
             self.places[context as usize] = point(self.block.get("position_point") as u64);
         }
-        self.visits.push_back(pushed);
+        self.pipeline.edge(pushed);
         self.block.edge();
+    }
+
+    /// The one or two visits that are asked for.
+    fn pushed(&self) -> Vec<Visit> {
+        let mut packed = self.block.get_masked("push_bundle", !CAVITY_ENTRY);
+        if Visit::of_bundle(packed).entry & 2 != 0 {
+            packed = self.block.get("push_bundle");
+        }
+        let (first, bundle) = (Visit::of_bundle(packed), unpack(BUNDLE, packed));
+        assert_eq!(bundle[1], 0, "two visits at most");
+        let second = Visit { entry: first.after, after: bundle[10], record: bundle[11], ..first };
+        [first, second][..1 + bundle[0] as usize].to_vec()
     }
 
     /// Asks about these places, checks the answers, and returns the number of clocks.
@@ -185,6 +232,7 @@ impl Rig {
             clocks += 1;
             assert!(clocks < 400_000, "the run ends");
         }
+        assert!((0..24).all(|context| self.pipeline.count(context) == 0), "no visit is in flight after a run");
         self.edge();
         assert!(words.is_empty());
         self.check(opcode, asked, has_mesh, &answer);
@@ -199,7 +247,12 @@ impl Rig {
         for part in answer[2..].chunks(words) {
             let number = part[0] & 0xff_ffff;
             assert!(numbers.insert(number), "item {number} has two parts");
-            let (place, outcome, vertices) = (asked[number as usize], part[0] >> 24, [part[1], part[2], part[3]]);
+            let (place, outcome) = (asked[number as usize], part[0] >> 24);
+            if opcode == NEAREST {
+                assert_eq!((outcome, part[1]), (1, self.nearest(place)), "{place:?}: the nearest vertex");
+                continue;
+            }
+            let vertices = [part[1], part[2], part[3]];
             self.mesh.check(place, outcome, vertices);
             if opcode == INTERPOLATE {
                 assert_eq!([part[5], part[7], part[9]], [0; 3], "the weights of the core have one word each");
@@ -208,14 +261,20 @@ impl Rig {
         }
         assert_eq!(numbers.len(), parts, "each item has a part");
     }
+
+    /// The vertex nearest to a place; of equal distances that of the smallest point.
+    fn nearest(&self, place: Point) -> u64 {
+        let nearness = |&(_, &point): &(usize, &Point)| (distance(point, place), point);
+        self.mesh.points.iter().enumerate().min_by_key(nearness).map_or(0, |(vertex, _)| vertex as u64)
+    }
 }
 
 /// Number of words of the part of an item.
 fn part_words(opcode: u64) -> usize {
-    if opcode == INTERPOLATE {
-        10
-    } else {
-        4
+    match opcode {
+        INTERPOLATE => 10,
+        NEAREST => 2,
+        _ => 4,
     }
 }
 
@@ -256,7 +315,7 @@ fn random_runs(name: &str, config: Config, seed: u64, meshes: usize, most: u64) 
             let asked: Vec<Point> = (0..count).map(|_| place(&mut random)).collect();
             let contexts = 1 + random.below(u64::from(config.contexts));
             let paces = Paces { words: [1, 1, 5][(number + run) % 3], beats: [1, 6, 1][number % 3] };
-            let opcode = LOCATE + random.below(2);
+            let opcode = LOCATE + random.below(3);
             rig.ask(opcode, &asked, contexts, !random.once_in(8), paces);
         }
     }
@@ -312,4 +371,10 @@ fn locate_takes_fewer_than_five_cycles_an_item() {
 fn interpolate_takes_fewer_than_five_and_a_half_cycles_an_item() {
     let cycles = cycles_of_an_item(INTERPOLATE);
     assert!(cycles < 5.5, "{cycles:.2} cycles an item");
+}
+
+#[test]
+fn nearest_takes_at_most_eight_cycles_an_item() {
+    let cycles = cycles_of_an_item(NEAREST);
+    assert!(cycles <= 8.0, "{cycles:.2} cycles an item");
 }

@@ -7,12 +7,13 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     RunPort,
     [reset, begins, opcode, signature, contexts, has_mesh, command.valid, command.data, taken, is_over],
-    [command.ready, dealt, is_change, vertex, head, is_active],
+    [command.ready, dealt, is_change, vertex, head, is_active, is_nearest],
     clock
 );
 
 const LOCATE: u64 = 8;
 const INTERPOLATE: u64 = 9;
+const NEAREST: u64 = 10;
 const INSERT_AS: u64 = 11;
 const BAD_RANGE: u64 = 2;
 const NO_MESH: u64 = 7;
@@ -41,7 +42,7 @@ impl Run {
     fn part_words(&self) -> u64 {
         match self.opcode {
             INTERPOLATE => 10,
-            INSERT_AS => 2,
+            NEAREST | INSERT_AS => 2,
             _ => 4,
         }
     }
@@ -105,6 +106,7 @@ impl Run {
                 block.expect("head_length", self.part_words() * parts);
                 block.expect("head_last_beat", self.part_words() / 2 - 1);
                 block.expect("head_parts", parts);
+                block.expect("is_nearest", self.opcode == NEAREST);
                 heads += 1;
             }
             let taken = block.is("dealt_valid") && random.once_in(takes);
@@ -152,7 +154,7 @@ fn run_port_deals_the_items_in_turn() {
     reset(&mut block);
     for number in 0..300 {
         let run = Run {
-            opcode: [LOCATE, INTERPOLATE, INSERT_AS][random.below(3) as usize],
+            opcode: LOCATE + random.below(4),
             count: [0, 1, 5, 60][number % 4],
             has_mesh: !random.once_in(4),
             contexts: 1 + random.below(24),
@@ -173,6 +175,8 @@ fn run_port_refuses_a_run_whose_answer_is_too_long() {
         (INTERPOLATE, 1 << 31, true),
         (INSERT_AS, 1 << 31, true),
         (INSERT_AS, (1 << 31) - 1, false),
+        (NEAREST, 1 << 31, true),
+        (NEAREST, (1 << 31) - 1, false),
     ] {
         let mut block = Stepper::new("living_run_port", RunPort::default(), 1);
         reset(&mut block);

@@ -1,5 +1,6 @@
 //! Tests of the blocks in `hdl/src/predicate`.
 
+mod corner_pairs;
 mod cross_product;
 mod dot_product;
 mod edge_signs;

@@ -1,6 +1,8 @@
 //! Tests of the blocks in `hdl/src/engine/visit`.
 
 mod issue;
+mod near_corner;
+mod near_logic;
 mod push_port;
 mod verdict_logic;
 mod visit_judge;
