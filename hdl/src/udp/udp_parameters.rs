@@ -92,7 +92,9 @@ impl UdpParameters {
         }
         let host_bits = u32::MAX >> prefix;
         let host = address.to_bits() & host_bits;
-        if address.is_multicast() || address.octets()[0] == 0 || host == 0 || host == host_bits {
+        // From 224 on there are groups, addresses that are kept back, and the broadcast address; no cable carries 127.
+        let is_outside = matches!(address.octets()[0], 0 | 127 | 224..);
+        if is_outside || host == 0 || host == host_bits {
             return Err(UdpError::Address(address));
         }
         if port == 0 {
@@ -154,7 +156,8 @@ mod tests {
         assert_eq!(link(UdpLinkConfig { fifo_bytes: 7, ..LINK }), Err(UdpError::Link(LinkConfigError::Fifo(7))));
         assert_eq!(link(UdpLinkConfig { mac: [1; 6], ..LINK }), Err(UdpError::Mac([1; 6])));
         assert_eq!(link(UdpLinkConfig { mac: [0; 6], ..LINK }), Err(UdpError::Mac([0; 6])));
-        for address in [[192, 168, 1, 0], [192, 168, 1, 255], [224, 0, 0, 1], [0, 0, 0, 1]] {
+        let outside = [[224, 0, 0, 1], [240, 0, 0, 1], [255, 1, 0, 1], [127, 0, 0, 1], [0, 0, 0, 1]];
+        for address in [[192, 168, 1, 0], [192, 168, 1, 255]].into_iter().chain(outside) {
             let address = Ipv4Addr::from(address);
             assert_eq!(UdpParameters { address, ..DEVICE }.check(), Err(UdpError::Address(address)));
         }
