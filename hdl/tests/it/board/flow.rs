@@ -96,7 +96,11 @@ fn without_a_clock_a_lower_one_is_tried() {
 
 #[test]
 fn a_port_has_a_usual_clock_of_its_own() {
-    let (report, _) = make(&folder("port"), &["--link", "udp", "--clock", "usual"], "106.0 107.0 108.0");
+    let out = folder("port");
+    let output = build(&out, &["--link", "udp", "--clock", "usual"], "106.0 107.0 108.0", "");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(out.join("colorlight-i5-udp.bit").exists());
+    let report = report(&out);
     assert_eq!((report.clock_mhz, report.met), (105, true));
 }
 
