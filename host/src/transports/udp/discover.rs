@@ -84,8 +84,8 @@ fn next(socket: &UdpSocket, until: Instant) -> io::Result<Option<(SocketAddr, Ve
     }
 }
 
-/// Whether an error leaves the others their chance to answer: a machine refuses the greeting, a datagram is too long for
-/// an answer, or a signal came.
+/// Whether an error leaves the others their chance to answer: a machine refuses the greeting, a datagram is too long,
+/// or a signal came.
 fn is_of_one(error: &io::Error) -> bool {
     matches!(error.kind(), IoKind::Interrupted | IoKind::ConnectionRefused | IoKind::ConnectionReset)
         || is_too_long(error)

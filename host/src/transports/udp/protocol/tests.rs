@@ -123,7 +123,7 @@ fn jobs_ahead_of_each_other_wait_for_the_next_session() {
         rig.ask_job();
         triangles(&rig.answers(3)).concat()
     };
-    // A job has three answers, and before the first one the core has given one, which tells its identity. With 7 numbers
+    // A job has three answers, and one answer of the core came before the first job. With 7 numbers
     // the sessions take 2, 3 and 1 jobs; with 4 they take 1, 2, 2 and 1; with 1 they take none and then 1 each.
     for (most_numbers, sessions) in [(u64::MAX, 1), (7, 3), (4, 4), (1, 7)] {
         let mut rig = Rig::opened();
