@@ -10,8 +10,9 @@
 //!    it may be high only while `holds` is.
 //! 4. Both resets are held together, at least for three clocks of either.
 //!
-//! Two of the longest datagrams and two of the shortest fit. So a short one between long ones, such as a receipt
-//! between answers, does not make the cable wait until the next long one is whole.
+//! Two of the longest datagrams and two of the shortest fit if the short ones begin before the second long one: a
+//! datagram begins only when there is room for the longest. So a short one between long ones, such as a receipt between
+//! answers, does not make the cable wait until the next long one is whole.
 //!
 //! Latency: 2 clocks from `read_index` to `read_data`; 3 clocks of the reader from the last byte to `holds`, perhaps
 //! one more; 2 clocks of the writer from the last byte to `byte_ready` for the next datagram if there is room; 5 of the
@@ -159,7 +160,7 @@ impl Logic for DatagramQueue {
         self.memory.write_enable.next = self.takes.val();
         self.is_freed.next = (self.counted.q.val() & self.oldest_mask.val()).any()
             & (!((self.filled.q.val() ^ self.freed_seen.received.val()) & self.oldest_mask.val()).any());
-        // Bytes are counted off only while no datagram is being written, or `used` would have to change twice at once.
+        // Bytes are not counted off in a clock that ends a datagram, or `used` would have to change twice at once.
         // The bytes under way need no count: there was room for the longest datagram when the first of them came.
         self.has_room.d.next = self.has_room.q.val()
             | ((self.used.q.val() <= self.most_used.val()) & (!(self.counted.q.val() & self.write_mask.val()).any()));

@@ -68,7 +68,7 @@ pub struct Responder {
     row_kept: Signal<Local, AnswerRow>,
 }
 
-/// The row of a place, from 64 on those of an echo; a row 63 is for all places from 63 on.
+/// The row of a place, from 64 on those of an echo; rows 63 and 127 stand for all places from 63 on.
 fn row(index: usize) -> AnswerRow {
     let (is_echo, place) = (index >= 64, index % 64);
     let (source, index, offset): (u64, u64, i64) = match (is_echo, place) {

@@ -36,7 +36,7 @@ pub struct SenderStore {
     /// Address, port and session of the open session, 16 bytes, to compare with.
     compared: LutMemory<4, 8>,
     session: LutMemory<5, 8>,
-    /// Half of the memory in which the datagram is written that is coming.
+    /// The half of `questions` into which the incoming datagram is written.
     half: DFF<Bit>,
     copying: DFF<Bit>,
     copied: DFF<HeadIndex>,

@@ -3,7 +3,7 @@
 //! 1. The header of a datagram says what was true when the datagram began.
 //! 2. A datagram begins only when the port has room for all of it, so no byte of it waits for the port. The port sends
 //!    it when its last byte has come. So a datagram may wait for words of the core.
-//! 3. The end of a session drops the datagram of it that is under way.
+//! 3. The end of a session drops that session's datagram under way.
 //!
 //! ```text
 //! asks -> DatagramReplies --------------+-> FrameChoice -> DatagramParts -> DatagramBytes -> DatagramSums -> bytes

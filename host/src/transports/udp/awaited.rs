@@ -97,6 +97,11 @@ impl Awaited {
         self.words
     }
 
+    /// Number of questions of the session so far, and so of its answers.
+    pub fn asked(&self) -> u64 {
+        self.first + self.slots.len() as u64
+    }
+
     /// Whether the fate of all answers is known.
     pub fn is_settled(&self) -> bool {
         self.slots.is_empty()

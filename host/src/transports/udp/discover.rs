@@ -1,6 +1,6 @@
 //! Looking for devices on a network, by a greeting to all.
 
-use std::io::ErrorKind as IoKind;
+use std::io::{self, ErrorKind as IoKind};
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, UdpSocket};
 use std::time::{Duration, Instant};
 
@@ -12,7 +12,7 @@ use super::address::UdpAddress;
 use super::codec::{encode, Message};
 use super::fault::UdpFault;
 use super::greeting::checked_greeting;
-use super::transport::random;
+use super::transport::{is_too_long, random};
 
 /// Number of greetings that are sent, since each may be lost.
 const GREETINGS: u32 = 3;
@@ -38,7 +38,7 @@ pub struct Discovered {
 /// # Errors
 /// [`UdpFault::Network`] if the system refuses a socket, or to send to every one of the addresses.
 pub fn discover(to: &[SocketAddrV4], time: Duration) -> Result<Vec<Discovered>, UdpFault> {
-    let refused = |error: std::io::Error| UdpFault::Network { what: "greet all devices", reason: error.to_string() };
+    let refused = |error: io::Error| UdpFault::Network { what: "greet all devices", reason: error.to_string() };
     let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).map_err(refused)?;
     socket.set_broadcast(true).map_err(refused)?;
     let everyone = [SocketAddrV4::new(Ipv4Addr::BROADCAST, UDP_PORT)];
@@ -60,12 +60,12 @@ pub fn discover(to: &[SocketAddrV4], time: Duration) -> Result<Vec<Discovered>, 
             found.extend(device);
         }
     }
-    found.sort_by_key(|device| (device.address.to_string(), device.greeting.mac));
+    found.sort_by_key(place);
     Ok(found)
 }
 
 /// The next datagram, and where it comes from.
-fn next(socket: &UdpSocket, until: Instant) -> std::io::Result<Option<(SocketAddr, Vec<u8>)>> {
+fn next(socket: &UdpSocket, until: Instant) -> io::Result<Option<(SocketAddr, Vec<u8>)>> {
     let mut bytes = [0; MAX_DEVICE_DATAGRAM + 1];
     loop {
         let wait = until.saturating_duration_since(Instant::now());
@@ -77,12 +77,23 @@ fn next(socket: &UdpSocket, until: Instant) -> std::io::Result<Option<(SocketAdd
             Ok((length, from)) => return Ok(Some((from, bytes[..length].to_vec()))),
             Err(error) => match error.kind() {
                 IoKind::WouldBlock | IoKind::TimedOut => return Ok(None),
-                // A machine refuses the greeting, or a signal came: others may answer.
-                IoKind::Interrupted | IoKind::ConnectionRefused | IoKind::ConnectionReset => {}
+                _ if is_of_one(&error) => {}
                 _ => return Err(error),
             },
         }
     }
+}
+
+/// Whether an error leaves the others their chance to answer: a machine refuses the greeting, a datagram is too long,
+/// or a signal came.
+fn is_of_one(error: &io::Error) -> bool {
+    matches!(error.kind(), IoKind::Interrupted | IoKind::ConnectionRefused | IoKind::ConnectionReset)
+        || is_too_long(error)
+}
+
+/// The place of a device among those found: by address, then by port, then by Ethernet address.
+fn place(device: &Discovered) -> (Option<Ipv4Addr>, u16, [u8; 6]) {
+    (device.address.host.parse().ok(), device.address.port, device.greeting.mac)
 }
 
 /// The device that sent this datagram, if it is the answer of a sound device to the greeting of this number.
@@ -94,4 +105,31 @@ fn answer(from: SocketAddr, number: u64, bytes: &[u8]) -> Option<Discovered> {
     let greeting = checked_greeting(&message).ok()?;
     let address = UdpAddress { host: from.ip().to_string(), port: from.port() };
     Some(Discovered { address, greeting, is_busy: message.header.status & STATUS_OPEN != 0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_stand_in_the_order_of_their_addresses() {
+        let greeting = UdpGreeting::from_words([0; UDP_GREETING_WORDS]);
+        let found = |host: &str, port| {
+            let address = UdpAddress { host: host.to_owned(), port };
+            Discovered { address, greeting, is_busy: false }
+        };
+        let mut devices = [found("10.0.0.10", 9), found("10.0.0.9", 1000), found("9.0.0.1", 9), found("10.0.0.9", 999)];
+        devices.sort_by_key(place);
+        let order = devices.map(|device| (device.address.host, device.address.port));
+        let expected = [("9.0.0.1", 9), ("10.0.0.9", 999), ("10.0.0.9", 1000), ("10.0.0.10", 9)];
+        assert_eq!(order, expected.map(|(host, port)| (host.to_owned(), port)));
+    }
+
+    #[test]
+    fn an_error_of_one_machine_does_not_end_the_search() {
+        for error in [IoKind::ConnectionReset.into(), io::Error::from_raw_os_error(10_040)] {
+            assert!(is_of_one(&error), "{error}");
+        }
+        assert!(!is_of_one(&IoKind::PermissionDenied.into()));
+    }
 }

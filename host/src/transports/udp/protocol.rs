@@ -34,7 +34,8 @@ const JOBS_AHEAD: usize = 8;
 pub struct UdpParams {
     /// Random number from which the numbers of sessions are made. Two hosts must not have the same.
     pub random: u64,
-    /// Most bytes of answers that are awaited at a time, half of what the socket keeps.
+    /// Most bytes of answers that are awaited at a time: half of the bytes of datagrams that the socket is sure to
+    /// keep, which is a quarter of the size that the system reports for its buffer.
     pub window_bytes: usize,
 }
 
@@ -48,7 +49,7 @@ impl UdpParams {
 /// Counts of the traffic on a UDP link so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct UdpStatistics {
-    /// Datagrams handed out to be sent, and received.
+    /// Datagrams handed out to be sent.
     pub sent: u64,
     /// Datagrams received.
     pub received: u64,
@@ -272,3 +273,6 @@ fn contradiction((head, payload): &Answer, greeting: &UdpGreeting) -> Option<Udp
     let ((found, expected), word) = words.find(|((found, expected), _)| found != expected)?;
     Some(UdpFault::Contradiction { word, found, expected })
 }
+
+#[cfg(test)]
+mod tests;

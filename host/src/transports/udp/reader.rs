@@ -10,12 +10,16 @@ use super::fault::UdpFault;
 use super::sender::Sender;
 use super::unit::{Answer, State, Unit};
 
-/// Share of units with a lost answer, of 256, from which on no job is sent ahead of the one before it, because a lost
-/// answer then costs a whole job; and the share below which jobs are sent ahead again. The two are far apart, so that
-/// chance does not switch between them.
+/// Number of datagrams or of answers from which on a session takes no new job: half of the numbers that there are. The
+/// jobs under way may use the other half.
+const MOST_NUMBERS: u64 = 1 << 31;
+
+/// Once this share of units (of 256) lost an answer, the host sends one job at a time; below [`CLEAN`] it sends ahead
+/// again. An answer that is lost while the next job is under way costs a whole job. The two shares are far apart, so
+/// that chance does not switch between them.
 const LOSSY: u32 = 96;
 const CLEAN: u32 = 24;
-/// The weight of the last unit in that share is one part in so many.
+/// The newest unit counts one part in `MEMORY`.
 const MEMORY: u32 = 8;
 
 /// The receiving half of a session. It also decides what is asked, and when.
@@ -46,6 +50,8 @@ pub(super) struct Reader {
     lossy: u32,
     /// Whether jobs are sent ahead of each other.
     goes_ahead: bool,
+    /// Number of datagrams or of answers from which on the session takes no new job.
+    pub most_numbers: u64,
     /// Number of answers asked for again, and of units sent again.
     repeated: u64,
     restarted: u64,
@@ -68,6 +74,7 @@ impl Reader {
             ready: VecDeque::new(),
             lossy: 0,
             goes_ahead: true,
+            most_numbers: MOST_NUMBERS,
             repeated: 0,
             restarted: 0,
         }
@@ -149,7 +156,7 @@ impl Reader {
             let unit = self.units.iter_mut().find(|unit| Some(unit.number) == self.current && unit.is_started);
             let due = unit.and_then(|unit| unit.due().map(|question| (unit, question)));
             let Some((unit, question)) = due else {
-                if self.start_next()? {
+                if self.start_next(sender)? {
                     continue;
                 }
                 return Ok(());
@@ -167,10 +174,24 @@ impl Reader {
         }
     }
 
+    /// Whether the session has used so many numbers that jobs wait for another one.
+    fn is_used_up(&self, sender: &Sender) -> bool {
+        sender.cut().max(self.awaited.asked()) >= self.most_numbers
+    }
+
+    /// Whether the session has used so many numbers that another one should be opened, and nothing is under way in it.
+    pub fn wants_session(&self, sender: &Sender) -> bool {
+        let is_at_job = self.units.iter().any(|unit| unit.is_started);
+        self.is_used_up(sender) && sender.is_done() && !is_at_job && self.units.front().is_some_and(Unit::begins_anew)
+    }
+
     /// Starts the next unit that has not been started, if it may be started now.
-    fn start_next(&mut self) -> Result<bool, UdpFault> {
+    fn start_next(&mut self, sender: &Sender) -> Result<bool, UdpFault> {
         let Some(index) = self.units.iter().position(|unit| !unit.is_started) else { return Ok(false) };
         let unit = &self.units[index];
+        if unit.begins_anew() && self.is_used_up(sender) {
+            return Ok(false);
+        }
         let others_are_done = self.units.iter().all(|other| !other.is_started || other.is_done());
         // A unit that cannot be sent again must have the device to itself until its answers are there.
         let may_overtake = |other: &Unit| !other.is_started || other.is_done() || other.begins_anew();
@@ -220,7 +241,7 @@ impl Reader {
         self.awaited.lost_at(grace)
     }
 
-    /// Does what the answers ask for whose fate is known.
+    /// Acts on each answer that came or is lost.
     fn settle(&mut self) -> Result<(), UdpFault> {
         while let Some(outcome) = self.awaited.next()? {
             match outcome {

@@ -10,7 +10,7 @@ use super::fault::UdpFault;
 
 /// Most bytes of words in a datagram.
 const MOST: usize = 4 * MAX_DATAGRAM_WORDS;
-/// Fewest bytes for which a datagram is sent that holds less than could be sent with more credit.
+/// The smallest datagram that the host sends when the credit does not allow a full one.
 const LEAST: usize = 64;
 
 /// A datagram that the device has not acknowledged.
@@ -63,6 +63,12 @@ pub(super) struct Sender {
 }
 
 impl Sender {
+    /// The sender of a session that has used so many numbers.
+    #[cfg(test)]
+    pub fn of_base(base: u64) -> Self {
+        Self { base, ..Self::default() }
+    }
+
     /// Takes a command to be sent, and returns the number of bytes of the session up to its end.
     pub fn push(&mut self, command: &Command<impl AsRef<[u32]>>) -> u64 {
         let (head, count) = command.head();

@@ -141,9 +141,19 @@ impl UdpTransport {
     fn take_one(&mut self) -> Result<bool, UdpFault> {
         // One byte more than the longest datagram shows that a datagram is too long.
         let mut bytes = [0; MAX_DEVICE_DATAGRAM + 1];
-        match self.socket.recv(&mut bytes) {
+        let came = self.socket.recv(&mut bytes);
+        self.take_in(came, &bytes)
+    }
+
+    /// Takes what the system has received. Returns true if it was a datagram.
+    fn take_in(&mut self, came: io::Result<usize>, bytes: &[u8]) -> Result<bool, UdpFault> {
+        match came {
             Ok(length) => {
-                self.protocol.receive(&bytes[..length], self.origin.elapsed());
+                self.protocol.receive(bytes.get(..length).unwrap_or(bytes), self.origin.elapsed());
+                Ok(true)
+            }
+            Err(error) if is_too_long(&error) => {
+                self.protocol.receive(bytes, self.origin.elapsed());
                 Ok(true)
             }
             Err(error) => match error.kind() {
@@ -179,6 +189,11 @@ fn is_passing(error: &io::Error) -> bool {
     matches!(error.kind(), IoKind::HostUnreachable | IoKind::NetworkUnreachable | IoKind::NetworkDown)
         // ENOBUFS of Linux and of macOS, and its number on Windows.
         || matches!(error.raw_os_error(), Some(105 | 55 | 10_055))
+}
+
+/// Whether Windows says that a datagram was longer than the buffer (WSAEMSGSIZE). Other systems only cut it.
+pub(super) fn is_too_long(error: &io::Error) -> bool {
+    error.raw_os_error() == Some(10_040)
 }
 
 /// The IPv4 address of a device.
@@ -263,4 +278,20 @@ fn handed_on((came, words): Answer, head: AnswerHead, payload: &mut [u32]) -> An
         payload.copy_from_slice(&words);
     }
     came
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_datagram_that_is_too_long_for_windows_is_ignored() {
+        let address = UdpAddress { host: "127.0.0.1".to_owned(), port: 9 };
+        let mut transport = UdpTransport::open(&address).expect("a socket");
+        let bytes = [0; MAX_DEVICE_DATAGRAM + 1];
+        let came = transport.take_in(Err(io::Error::from_raw_os_error(10_040)), &bytes);
+        assert_eq!((came, transport.statistics().broken), (Ok(true), 1));
+        let came = transport.take_in(Err(io::Error::other("the socket is gone")), &bytes);
+        assert!(matches!(came, Err(UdpFault::Network { .. })), "{came:?}");
+    }
 }

@@ -70,12 +70,13 @@ impl UdpProtocol {
 
     fn hear_open(&mut self, message: &Message<'_>, now: Duration) -> Result<(), UdpFault> {
         match message.header.kind {
-            // The number of a session is random, so these can only be about this session.
-            DeviceDatagram::NoSession | DeviceDatagram::Busy | DeviceDatagram::Closed => {
+            // The number of a session is random, so these can only be about this session, which is over.
+            DeviceDatagram::NoSession | DeviceDatagram::Closed => {
                 let silence_ms = u32::try_from(self.silence.as_millis()).unwrap_or(u32::MAX);
                 return Err(UdpFault::Reset { silence_ms });
             }
-            DeviceDatagram::Hello => return Ok(()),
+            // A late `Busy` answers an `Open` that came before the one which opened this session.
+            DeviceDatagram::Hello | DeviceDatagram::Busy => return Ok(()),
             _ => self.last_heard = now,
         }
         let is_current = self.take_header(message, now)?;

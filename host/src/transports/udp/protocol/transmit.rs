@@ -117,6 +117,9 @@ impl UdpProtocol {
             self.fault = Some(UdpFault::Lost { milliseconds: milliseconds(silent_for) });
             return;
         }
+        if self.reader.wants_session(&self.sender) {
+            return self.open(now, Some(self.session));
+        }
         let counted = self.reader.count(now, self.grace(), false);
         if let Err(fault) = counted.and_then(|()| self.reader.ask_more(&mut self.sender)) {
             self.fault = Some(fault);
