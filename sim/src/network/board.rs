@@ -18,6 +18,8 @@ const GAP: usize = 12;
 /// Clocks for which the reset is held, and after which a board has cleared its memories.
 const RESET_CLOCKS: u64 = 32;
 const SETTLING: u64 = 20_000;
+/// Number of clocks for which the cable may be taken before no more should be sent: 43 of the longest frames.
+const MOST_WAITING: usize = 1 << 16;
 /// Clocks of the PHY, beyond the silence, after which a board on a silent cable has nothing to say any more.
 const QUIET: u64 = 20_000;
 
@@ -159,6 +161,11 @@ impl NetworkBoard {
     /// Number of clocks for which the cable to the board is taken.
     pub fn waiting(&self) -> usize {
         self.wire.len()
+    }
+
+    /// Whether more should be sent now. The board keeps whatever is sent, so a sender that does not ask fills memory.
+    pub fn has_room(&self) -> bool {
+        self.waiting() < MOST_WAITING
     }
 
     /// Takes the next datagram of the board, and the address to which it goes. Other frames before it are dropped.

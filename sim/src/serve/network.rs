@@ -119,7 +119,7 @@ impl Server {
         self.device.age(self.now());
         let mut is_idle = true;
         for _ in 0..BURST {
-            if !self.take_one()? {
+            if !self.device.has_room() || !self.take_one()? {
                 break;
             }
             is_idle = false;
@@ -129,13 +129,13 @@ impl Server {
             self.device.work();
             while let Some((to, datagram)) = self.device.give() {
                 self.figures.to_host += 1;
-                self.hand_out(to, &datagram)?;
+                self.hand_out(to, &datagram);
             }
             if !self.device.is_at_work() {
                 break;
             }
         }
-        self.deliver()?;
+        self.deliver();
         if is_idle && !self.device.is_at_work() {
             return self.wait();
         }
@@ -151,20 +151,28 @@ impl Server {
     fn take_one(&mut self) -> io::Result<bool> {
         let mut bytes = [0; MAX_HOST_DATAGRAM + 1];
         match self.socket.recv_from(&mut bytes) {
-            Ok((length, SocketAddr::V4(from))) => {
-                let now = self.now();
-                match &mut self.network {
-                    Some([down, _]) => down.send(now, from, &bytes[..length]),
-                    None => {
-                        self.figures.to_device += 1;
-                        self.device.take(from, &bytes[..length]);
-                    }
-                }
+            Ok((length, from)) => {
+                self.take_in(from, &bytes[..length]);
                 Ok(true)
             }
-            Ok((_, SocketAddr::V6(_))) => Ok(true),
             Err(error) if is_passing(&error) => Ok(false),
             Err(error) => Err(error),
+        }
+    }
+
+    /// Puts a datagram on its way to the device. One from port 0 is dropped, since no answer can be sent there.
+    fn take_in(&mut self, from: SocketAddr, datagram: &[u8]) {
+        let SocketAddr::V4(from) = from else { return };
+        if from.port() == 0 {
+            return;
+        }
+        let now = self.now();
+        match &mut self.network {
+            Some([down, _]) => down.send(now, from, datagram),
+            None => {
+                self.figures.to_device += 1;
+                self.device.take(from, datagram);
+            }
         }
     }
 
@@ -183,33 +191,25 @@ impl Server {
     }
 
     /// Puts a datagram on its way to a host.
-    fn hand_out(&mut self, to: SocketAddrV4, datagram: &[u8]) -> io::Result<()> {
+    fn hand_out(&mut self, to: SocketAddrV4, datagram: &[u8]) {
         let now = self.now();
         match &mut self.network {
-            Some([_, up]) => {
-                up.send(now, to, datagram);
-                Ok(())
-            }
+            Some([_, up]) => up.send(now, to, datagram),
             None => self.send(to, datagram),
         }
     }
 
     /// Sends the datagrams whose way is over.
-    fn deliver(&mut self) -> io::Result<()> {
+    fn deliver(&mut self) {
         let now = self.now();
         while let Some((to, datagram)) = self.network.as_mut().and_then(|[_, up]| up.next(now)) {
-            self.send(to, &datagram)?;
+            self.send(to, &datagram);
         }
-        Ok(())
     }
 
-    /// Sends a datagram. One that the system does not take now is lost, as on a network.
-    fn send(&self, to: SocketAddrV4, datagram: &[u8]) -> io::Result<()> {
-        match self.socket.send_to(datagram, to) {
-            Ok(_) => Ok(()),
-            Err(error) if is_passing(&error) => Ok(()),
-            Err(error) => Err(error),
-        }
+    /// Sends a datagram. One that the system does not take is lost, as on a network: no host ends the service of all.
+    fn send(&self, to: SocketAddrV4, datagram: &[u8]) {
+        let _ = self.socket.send_to(datagram, to);
     }
 
     /// Waits until a datagram comes from a host or has passed the network.
@@ -225,7 +225,7 @@ impl Server {
     }
 }
 
-/// Whether an error of the socket means no more than that nothing has come, or that one datagram is lost.
+/// Whether an error of a receiving socket means no more than that nothing has come, or that one datagram is lost.
 fn is_passing(error: &io::Error) -> bool {
     matches!(
         error.kind(),
@@ -236,6 +236,10 @@ fn is_passing(error: &io::Error) -> bool {
             | ErrorKind::ConnectionReset
             | ErrorKind::HostUnreachable
             | ErrorKind::NetworkUnreachable
+            | ErrorKind::NetworkDown
             | ErrorKind::PermissionDenied
-    )
+    ) || matches!(error.raw_os_error(), Some(105 | 55)) // ENOBUFS of Linux and of macOS
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,6 +26,10 @@ pub(super) trait OnNetwork {
     /// Takes a datagram that came from this address.
     fn take(&mut self, from: SocketAddrV4, datagram: &[u8]);
 
+    /// Whether the device may be given another datagram. Without room, datagrams wait in the socket, and the system
+    /// drops those beyond its limit.
+    fn has_room(&self) -> bool;
+
     /// The next datagram for a host, and the address that it goes to.
     fn give(&mut self) -> Option<(SocketAddrV4, Vec<u8>)>;
 
@@ -65,6 +69,10 @@ impl OnNetwork for FastDevice {
         self.model.take(from, false, datagram);
     }
 
+    fn has_room(&self) -> bool {
+        true
+    }
+
     fn give(&mut self) -> Option<(SocketAddrV4, Vec<u8>)> {
         self.model.give()
     }
@@ -92,6 +100,10 @@ impl OnNetwork for FastDevice {
 impl OnNetwork for NetworkBoard {
     fn take(&mut self, from: SocketAddrV4, datagram: &[u8]) {
         self.send(from, false, datagram);
+    }
+
+    fn has_room(&self) -> bool {
+        Self::has_room(self)
     }
 
     fn give(&mut self) -> Option<(SocketAddrV4, Vec<u8>)> {

@@ -11,7 +11,7 @@ use crate::error::SimError;
 use crate::network::NetworkBoard;
 
 /// Most frames that are taken before the board runs.
-const BURST: usize = 64;
+const BURST: u64 = 64;
 /// Nanoseconds of the board's time between two looks at the kernel: about as long as a long frame takes on the wire.
 const SLICE_NS: u64 = 16_000;
 /// Longest sleep. A signal to end may have to wait this long.
@@ -59,11 +59,7 @@ pub fn serve_tap(name: &str, config: Config, stops: &AtomicBool, ready: impl FnO
     let mut figures = TapFigures::default();
     ready();
     while !stops.load(Ordering::Relaxed) {
-        for _ in 0..BURST {
-            let Some(frame) = tap.read()? else { break };
-            figures.to_device += 1;
-            board.send_sound_frame(&frame);
-        }
+        figures.to_device += fill(&mut board, || tap.read())?;
         if board.is_at_rest() {
             tap.wait(NAP)?;
             continue;
@@ -75,4 +71,36 @@ pub fn serve_tap(name: &str, config: Config, stops: &AtomicBool, ready: impl FnO
         }
     }
     Ok(figures)
+}
+
+/// Puts frames on the cable of the board, as many as there are and as it has room for, and returns their number. The
+/// others wait in the kernel, which drops those that its queue cannot hold.
+fn fill(board: &mut NetworkBoard, mut read: impl FnMut() -> io::Result<Option<Vec<u8>>>) -> io::Result<u64> {
+    let mut taken = 0;
+    while taken < BURST && board.has_room() {
+        let Some(frame) = read()? else { break };
+        board.send_sound_frame(&frame);
+        taken += 1;
+    }
+    Ok(taken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use incircle_protocol::SMALL;
+
+    #[test]
+    fn a_flood_of_frames_does_not_fill_the_memory() {
+        let mut board = NetworkBoard::new(SMALL).expect("a board");
+        for _ in 0..10 {
+            fill(&mut board, || Ok(Some(vec![0; 1514]))).expect("frames");
+            assert!(board.waiting() < 70_000, "{} clocks wait", board.waiting());
+            board.run(SLICE_NS);
+        }
+        while !board.has_room() {
+            board.run(SLICE_NS);
+        }
+        assert_ne!(fill(&mut board, || Ok(Some(vec![0; 60]))).expect("frames"), 0);
+    }
 }
