@@ -2,8 +2,9 @@
 //!
 //! 1. An item of a context ends, so that the next one can begin, when its attempt hands its ring over, when a vertex
 //!    turns out to have its point, or with its solo insertion.
-//! 2. A part with the outcome `Done` is given when the last write of the commit is on its way. A part is given a clock,
-//!    and a part of a commit waits for all others but refusals.
+//! 2. A part with the outcome `Done` is given when the last write of the commit is on its way. At most one part is
+//!    given in a clock. The part of a commit waits for those of duplicates and solo insertions, and goes before a
+//!    refusal.
 //! 3. Outside a run no part is given: the items are then the points of an `Insert`.
 //!
 //! Latency: none (combinational) from an event to `ends` and `came`, unless the part waits.
@@ -42,8 +43,8 @@ pub struct ChangeEnds {
     pub raised: Signal<Out, VertexId>,
     pub unmarks: Signal<Out, Bit>,
     pub unmarked: Signal<Out, VertexId>,
-    /// Number of the item that each context has handed over. The context hands the next one over when the commit of this
-    /// one is over, because no other root visit comes before (L6).
+    /// Number of the item that each context has handed over. A context hands its next item over only after the commit
+    /// of this one, because its next root visit waits for that (L6).
     handed: LutMemory<CONTEXT_BITS, 24>,
     /// The commits that are over and whose parts are not given.
     done: Fifo<CONTEXT_BITS, DONE_BITS>,

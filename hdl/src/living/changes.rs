@@ -9,7 +9,7 @@
 //!    its ring over; the rules L1 to L10 keep the contexts apart. An attempt that aborts is retried by the engine, and
 //!    the item stays the one of its context until it ends.
 //! 2. From the first item on until the next clear (`has_changed`), contexts take no points by themselves.
-//! 3. A point of an `Insert` becomes an item, too, whose part is not given.
+//! 3. From then on, a point of an `Insert` becomes an item too, and gets no part.
 //!
 //! Latency: that of the blocks in it.
 

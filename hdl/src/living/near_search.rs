@@ -9,7 +9,7 @@
 //!    to three visits of a context are in flight: two chains, and a chain round the centre before.
 //! 3. When both chains have ended, the centre is the nearest vertex, and the item ends. Then none of its visits is in
 //!    flight. If a new centre has no chain, while a visit of the old one is in flight, the record is visited once more:
-//!    that visit completes behind the other.
+//!    that visit completes behind the other. No mesh needs this visit; it is a guard.
 //! 4. In a visit, bit 1 of `entry` says that it belongs to a chain, bit 2 that the chain goes to the left, and bit 3
 //!    that the record is visited once more. Bit 0 of `cavity_entry` is the parity, and `cavity_record` the record that
 //!    the chain comes from.
@@ -42,7 +42,7 @@ pub struct NearSearch {
     /// The visit that completes, and what it says about the nearest corner of its record.
     pub completion: Signal<In, Completion>,
     pub nearest: Signal<In, NearVerdict>,
-    /// The visit ends the walk of a search, or is one of a record once more; and it belongs to a chain.
+    /// `begins`: the visit ends the walk of a search, or visits a record once more. `follows`: it belongs to a chain.
     pub begins: Signal<In, Bit>,
     pub follows: Signal<In, Bit>,
     /// Visits follow, and those visits.

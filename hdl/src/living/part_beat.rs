@@ -2,8 +2,8 @@
 //!
 //! 1. Beat 0 has outcome and number of the item, and the first vertex. With the outcome `Full` (8), the vertex is any
 //!    word, and stands in `w0`.
-//! 2. Beat 1 has the other two vertices. Beats 2 to 4,
-//!    which only the parts of `Interpolate` have, each have a weight: its low word, and its high word, which is 0.
+//! 2. Beat 1, which only the parts of `Locate` and `Interpolate` have, has the other two vertices. Beats 2 to 4, which
+//!    only the parts of `Interpolate` have, each have a weight: its low word, and its high word, which is 0.
 //!
 //! Latency: none, the block is combinational.
 

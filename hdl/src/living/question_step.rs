@@ -7,8 +7,8 @@
 //!    the place too. The answer is the hull edge of the last ghost triangle that does, counter-clockwise on the hull. A
 //!    visit of this search has 1 as `entry`, and as `cavity_record` the end of the hull edge of the ghost triangle that
 //!    was visited before. The start of that edge is a corner of both ghost triangles, so the visit need not carry it.
-//! 4. In a run of `Nearest`, [`NearSearch`] goes round vertices as soon as the walk has ended. Of its finding only
-//!    outcome and first vertex count.
+//! 4. In a run of `Nearest`, [`NearSearch`] goes round vertices as soon as the walk has ended. Of the finding of a
+//!    `Nearest`, only the outcome and the first vertex count.
 //! 5. Visits of questions take no lock, and those of walks and of the search along the hull turn no record.
 //!
 //! Latency: none (combinational) from a completed visit to all outputs.

@@ -51,8 +51,8 @@ pub struct Questions {
     pub has_mesh: Signal<In, Bit>,
     pub command: CommandSink,
     pub response: AnswerSource,
-    /// The visit of a question that completes, with signs and values of its three orient2d, for the corners as stored,
-    /// and with the search for the nearest vertex.
+    /// The visit that completes (`done` only if it is that of a question), with signs and values of its three orient2d,
+    /// for the corners as stored, and with the search for the nearest vertex.
     pub completion: Signal<In, Completion>,
     pub sides: Signal<In, Sides>,
     pub nearest: Signal<In, NearVerdict>,
@@ -83,7 +83,8 @@ pub struct Questions {
     queues: ItemQueues,
     step: QuestionStep,
     parts: PartQueue,
-    /// The record at which the last walk of each context has ended, and the number of its item.
+    /// The record at which the last walk of each context has ended, or the root of its last change, and the number of
+    /// its item.
     hints: LutMemory<CONTEXT_BITS, TRIANGLE_BITS>,
     numbers: LutMemory<CONTEXT_BITS, 24>,
     /// Bit `c`: context `c` has a hint.
@@ -152,7 +153,7 @@ impl Logic for Questions {
             self.queues.ends.next.context = self.visit.val().context;
         }
 
-        // The queue of the pipeline takes one visit a clock, so a walk begins only if no other visit follows.
+        // The queue of the pipeline takes one bundle a clock, so a walk begins only if no completed visit asks.
         self.launch.next = self.queues.launch.val();
         self.item.next = self.launch.val().item;
         self.may_launch.next = self.events.val().may_launch;

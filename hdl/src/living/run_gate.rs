@@ -36,7 +36,7 @@ pub struct RunGate {
     insert_code: Signal<Local, Bits<8>>,
 }
 
-// The kernel holds the opcode as a literal, because rust-hdl allows no constants there. A changed protocol fails here.
+// The kernel holds the opcodes as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     Opcode::Locate as u8 == 8
         && Opcode::Interpolate as u8 == 9

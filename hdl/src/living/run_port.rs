@@ -4,12 +4,13 @@
 //! 2. A run without a mesh to ask, or with more items than the length of its answer can count, is refused: its words
 //!    are taken, and then its answer is the status alone.
 //! 3. The head of an answer goes out when the number of items is known, or when the words of a refused run are over.
-//!    The run ends when its answer has been taken.
+//!    The run ends when its answer has been taken and, after changes, all locks are released.
 //! 4. An item of an `InsertAs` has two words, its vertex and its point; all others have one.
 //! 5. `command_ready` depends on registers only and does not wait for `command_valid`.
 //!
 //! Latency: 2 clocks from the number of items to `head`. An item is dealt in the clock after it was taken, so an item
-//! can be taken every second clock.
+//! can be taken every second clock. An `InsertAs` needs at least 7 clocks an item: for its two words, and for the look
+//! at its vertex.
 //!
 //! A run of two items, of which the first has to wait a clock:
 //! ```text
@@ -67,13 +68,14 @@ pub struct RunPort {
     /// The item on offer to the contexts, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
     pub taken: Signal<In, Bit>,
-    /// The run under way is an `InsertAs`; the vertex of the item on offer.
+    /// The run under way, or the last one, is an `InsertAs`; the vertex of the item on offer.
     pub is_change: Signal<Out, Bit>,
     pub vertex: Signal<Out, Word>,
     pub head: Signal<Out, RunHead>,
-    /// The last word of the answer has been taken; from the clock after `head`.
+    /// The last word of the answer has been taken and, after changes, all locks are released; from the clock after
+    /// `head`.
     pub is_over: Signal<In, Bit>,
-    /// A run is under way, and it is one of `Nearest`.
+    /// A run is under way; and the run under way, or the last one, is a `Nearest`.
     pub is_active: Signal<Out, Bit>,
     pub is_nearest: Signal<Out, Bit>,
     dealer: ItemDealer,

@@ -1,7 +1,7 @@
-//! Collects the state of the core on which questions depend.
+//! Collects the state of the core on which runs depend.
 //!
-//! 1. Questions can be asked as soon as the first triangle has a record. They cannot be asked about a batch, which has
-//!    a mesh for each of its jobs, nor after a report of the watchdog.
+//! 1. Runs can be done as soon as the first triangle has a record. They cannot be done on a batch, which has a mesh for
+//!    each of its jobs, nor after a report of the watchdog.
 //!
 //! Latency: none, the block is combinational.
 

@@ -54,8 +54,8 @@ crate::packed! {
     }
 
     /// The outcome of an item and the vertices that it names, each with its weight. Vertices that it does not name
-    /// are 0, and so are their weights and all weights outside the hull. With the outcome `Full`, the vertex of the item
-    /// stands in `w0`, because it can be any word.
+    /// are 0, and so are their weights and all weights outside the hull. With the outcome `Full`, the vertex of the
+    /// item stands in `w0`, because it can be any word.
     pub struct Finding {
         pub outcome: Bits<4>,
         pub v0: VertexId,
@@ -78,7 +78,7 @@ crate::packed! {
         pub part: Part,
     }
 
-    /// The state of a core and of its mesh, as far as questions depend on it.
+    /// The state of a core and of its mesh, as far as runs depend on it.
     pub struct Standing {
         /// The next word is a command.
         pub awaits_command: bool,
@@ -89,7 +89,7 @@ crate::packed! {
         pub engine: Bits<8>,
         /// Number of contexts that work.
         pub contexts: Bits<5>,
-        /// The core has a mesh that questions can be asked about.
+        /// The core has a mesh that runs can ask or change.
         pub has_mesh: bool,
     }
 

@@ -7,7 +7,8 @@
 //!    vertex whose point turns out to be that of another one is no longer in use (`unmarks`).
 //! 3. Bits from `known` on are arbitrary. If an item has a higher vertex, the bits up to it are cleared first, one a
 //!    clock. All ids that have come with an `Insert` are known.
-//! 4. At most one of `marks` and `unmarks` is high, and it goes first; the block then waits with its own write and read.
+//! 4. At most one of `marks` and `unmarks` is high. It has the write port first; the block's own read or write waits a
+//!    clock.
 //! 5. Items of a question go through without a look.
 //!
 //! Latency: 4 clocks from an item to its offer or refusal, and one more for each bit that is cleared; none for a
@@ -46,7 +47,8 @@ pub struct VertexCheck {
     /// Number of vertices that the core holds, a constant; number of ids that have been used.
     pub capacity: Signal<In, VertexCount>,
     pub arrived: Signal<In, VertexCount>,
-    /// The item on offer, whether it is one of a change, and its vertex; and whether it is done with here at this edge.
+    /// The item on offer, whether it is one of a change, and its vertex; and whether this block is done with it at this
+    /// edge (`taken`).
     pub dealt: Signal<In, DealtItem>,
     pub is_change: Signal<In, Bit>,
     pub vertex: Signal<In, Word>,

@@ -1,4 +1,4 @@
-//! Compares the corners of a record by their distance to the point, and the angles between its edges and the point.
+//! Compares the distances of a record's corners to the point, and says which edges lead towards the point.
 //!
 //! 1. The block takes new corners at every edge. There is no reset.
 //! 2. With `a_k = r_k - p`, the squared distance of corner `k` is `a_k * a_k`, and the spoke from corner `i` to corner

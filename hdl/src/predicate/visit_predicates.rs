@@ -12,7 +12,7 @@
 //! takes more than one addition or comparison, and a register separates every adder from the multipliers around it.
 //!
 //! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for the small
-//! products, 8 for the large ones.
+//! products, 8 for the large ones. A core with questions has ten more, in [`CornerPairs`].
 
 use super::corner_pairs::CornerPairs;
 use super::cross_product::CrossProduct;

@@ -58,7 +58,7 @@ pub enum NetworkError {
         /// The reason.
         source: io::Error,
     },
-    /// The system refuses to send or to receive.
+    /// The system refuses to set up the socket or to receive.
     #[error("the network fails: {0}")]
     Io(#[from] io::Error),
     /// The core cannot be modelled.

@@ -34,8 +34,8 @@ const JOBS_AHEAD: usize = 8;
 pub struct UdpParams {
     /// Random number from which the numbers of sessions are made. Two hosts must not have the same.
     pub random: u64,
-    /// Most bytes of answers that are awaited at a time: half of the bytes of datagrams that the socket is sure to
-    /// keep, which is a quarter of the size that the system reports for its buffer.
+    /// Most bytes of answers that are awaited at a time: a quarter of the buffer size that the system reports, which
+    /// is half of what the socket surely keeps.
     pub window_bytes: usize,
 }
 

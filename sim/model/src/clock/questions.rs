@@ -1,8 +1,8 @@
 //! Runs on a mesh that stands, clock by clock: the words of a run, the queues of its items, the walks of questions, and
 //! the parts of its answer. The insertion engine carries out the items of changes.
 //!
-//! Hardware twin: the block `Questions`. During a run of questions no insertion is at work, so all visits in the pipeline
-//! are those of questions, and no record changes.
+//! Hardware twin: the block `Questions`. During a run of questions no insertion is at work, so all visits in the
+//! pipeline are those of questions, and no record changes.
 
 mod changes;
 mod item_queues;
@@ -34,7 +34,7 @@ pub(super) struct Questions {
     /// The item of each context, and its search for the nearest vertex.
     items: Vec<Item>,
     searches: Vec<Search>,
-    /// The record at which the last walk of each context has ended.
+    /// The record at which the last walk of each context has ended, or the root of its last change.
     hints: Vec<u32>,
     changes: Changes,
 }

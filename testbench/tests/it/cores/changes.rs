@@ -191,7 +191,8 @@ impl Rig {
                     self.insert(&points)?;
                 }
                 2 => {
-                    let kind = if self.random.once_in(2) { RunKind::Locate } else { RunKind::Interpolate };
+                    let kinds = [RunKind::Locate, RunKind::Interpolate, RunKind::Nearest];
+                    let kind = kinds[self.random.below(3) as usize];
                     let count = self.random.below(items + 1);
                     let places: Vec<u32> = (0..count).map(|_| place(&mut self.random, side)).collect();
                     self.ask(kind, &places)?;

@@ -1,8 +1,9 @@
 //! The search for the triangles of a part that are not final, without a look at most of the others.
 //!
-//! A triangle is *open* if its closed circumscribed disc touches or crosses a side of the part's cell. Open triangles
-//! form strips along the sides, and nearly all triangles lie far from them. The search tests a triangle only if one of
-//! its corners is *shallow*: near a side, or on the hull. All other vertices are *deep*.
+//! A triangle is *open* if its closed circumscribed disc touches or crosses a side of the part's cell. The west and
+//! south sides are here the lines one step outside the cell, as in [`Reach`], so that all points lie strictly inside.
+//! Open triangles form strips along the sides, and nearly all triangles lie far from them. The search tests a triangle
+//! only if one of its corners is *shallow*: near a side, or on the hull. All other vertices are *deep*.
 //!
 //! **Why the others are final.** Let `T` be an open triangle, and `q` a point of its closed disc on a side of the cell.
 //! All points of the part lie strictly inside the cell, so `q` lies outside the hull. Draw a line from a place in `T`
@@ -34,7 +35,7 @@ const DEEP: u8 = 0;
 const SHALLOW: u8 = 1;
 /// A vertex whose triangles are tested in this round.
 const NEW: u8 = 2;
-/// Rounds before all triangles are tested. The rounds of evenly spread points are fewer.
+/// The number of rounds after which all triangles are tested. Evenly spread points need fewer.
 const ROUNDS: usize = 4;
 /// The depth up to which vertices are shallow from the start, in mean distances of neighbours. A larger depth means
 /// more tests, and a smaller one more rounds.
@@ -98,8 +99,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Tests the triangles that have new corners and no others but deep ones, and moves those that are open to the
-    /// other list.
+    /// Tests the triangles that have a new corner and no shallow one, and moves the open ones to the other list.
     fn test(&self, triangles: &mut Vec<[u32; 3]>, open: &mut Vec<[u32; 3]>) -> Result<(), Unsound> {
         let point = |v: u32| Point::new(self.sites[v as usize].x(), self.sites[v as usize].y());
         let mut place = 0;

@@ -1,5 +1,5 @@
-//! The changes of a mesh that stands: how the items of an `InsertAs`, and the points of an `Insert` that comes after one,
-//! reach the insertion engine and end.
+//! The changes of a mesh that stands: how the items of an `InsertAs`, and the points of an `Insert` that comes after
+//! one, reach the insertion engine and end.
 //!
 //! Hardware twin: the block `Changes`, with `VertexCheck`, `ChangeEnds` and `LatePoints` in it.
 

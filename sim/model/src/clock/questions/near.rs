@@ -1,6 +1,6 @@
-//! The search for the vertex nearest to a place. From a corner of a record two chains of visits go round the corner, one
-//! each way, until there are no more spokes that point less than 90 degrees past the place. A nearer vertex becomes the
-//! centre.
+//! The search for the vertex nearest to a place. From a corner of a record two chains of visits go round the corner,
+//! one each way, until there are no more spokes that make an angle of less than 90 degrees with the direction to the
+//! place. A nearer vertex becomes the centre.
 //!
 //! Hardware twin: the blocks `NearLogic` and `NearSearch`.
 

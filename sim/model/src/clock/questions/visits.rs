@@ -1,4 +1,4 @@
-//! The visits of questions on their way through the pipeline. During a run no record changes, so a visit carries no
+//! The visits of questions on their way through the pipeline. During a run of questions no record changes, so a visit carries no
 //! record: it is read when the visit completes.
 //!
 //! Hardware twin: the block `VisitPipeline`.
