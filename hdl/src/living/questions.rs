@@ -9,7 +9,8 @@
 //! ```
 //! 1. A context works on one item at a time, and has one visit in flight, or up to three in the search of a `Nearest`.
 //!    A visit that completes asks for the next one or two, or ends its item, or leaves both to another visit in flight.
-//!    A walk begins in a clock in which no completed visit asks, so one bundle a clock enters the queue of the pipeline.
+//!    A walk begins in a clock in which no completed visit asks, so one bundle a clock enters the queue of the
+//!    pipeline.
 //! 2. A walk begins where the last walk of its context has ended, or at record 0 if there was none since the last
 //!    `clears`. No record goes away while the mesh stands.
 //! 3. Questions take no lock and write no record. The user begins a run only while no insertion is at work, so the mesh

@@ -1,8 +1,8 @@
 //! The head of the answer to a run.
 //!
 //! 1. An answer has four words for each item of a `Locate` (8), ten for each item of an `Interpolate` (9), and two for
-//!    each item of a `Nearest` (10) or an `InsertAs` (11). The answer to a run that is refused, with another status than
-//!    0, is its head alone.
+//!    each item of a `Nearest` (10) or an `InsertAs` (11). The answer to a run that is refused, with another status
+//!    than 0, is its head alone.
 //! 2. A run is too long if the words of its answer cannot be counted in 32 bits.
 //!
 //! Latency: none, the block is combinational.

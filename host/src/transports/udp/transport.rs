@@ -191,7 +191,8 @@ fn is_passing(error: &io::Error) -> bool {
         || matches!(error.raw_os_error(), Some(105 | 55 | 10_055))
 }
 
-/// Whether Windows says that a datagram was longer than the buffer (WSAEMSGSIZE). Other systems cut the datagram and report no error.
+/// Whether Windows says that a datagram was longer than the buffer (WSAEMSGSIZE). Other systems cut the datagram and
+/// report no error.
 pub(super) fn is_too_long(error: &io::Error) -> bool {
     error.raw_os_error() == Some(10_040)
 }

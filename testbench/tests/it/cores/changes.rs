@@ -2,8 +2,8 @@
 //! scripts of `InsertAs`, `Insert`, `Locate` and `Interpolate` on small grids, crossed with idle clocks and
 //! back-pressure. Parts and meshes are compared with the model by commands, which knows no clock.
 //!
-//! A host puts no vertex and no place twice into one run. Where a script does, the order of the items is the core's own.
-//! Then its parts say which items were done, and the model by commands does these alone: the meshes must be equal.
+//! A host puts no vertex and no place twice into one run. Where a script does, the order of the items is the core's
+//! own. Then its parts say which items were done, and the model by commands does these alone: the meshes must be equal.
 
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{

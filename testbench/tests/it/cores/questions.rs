@@ -1,6 +1,6 @@
 //! Runs cores that answer questions beside their model, and compares every root port at every clock: random scripts of
-//! insertions and runs of `Locate`, `Interpolate` and `Nearest`, crossed with idle clocks and back-pressure. All answers are
-//! compared with the model by commands, which knows no clock.
+//! insertions and runs of `Locate`, `Interpolate` and `Nearest`, crossed with idle clocks and back-pressure. All
+//! answers are compared with the model by commands, which knows no clock.
 
 use incircle_model::CommandModel;
 use incircle_protocol::{

@@ -1,5 +1,5 @@
-//! The visits of questions on their way through the pipeline. During a run of questions no record changes, so a visit carries no
-//! record: it is read when the visit completes.
+//! The visits of questions on their way through the pipeline. During a run of questions no record changes, so a visit
+//! carries no record: it is read when the visit completes.
 //!
 //! Hardware twin: the block `VisitPipeline`.
 
