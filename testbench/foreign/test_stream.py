@@ -41,7 +41,9 @@ from oracle import delaunay
 # A small core takes minutes for a set that fills it.
 SOME = min(POINTS, 24)
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
-IDENTITY = [0x696E4369, 0x20000, 0x300, 16, POINTS, 0x100 | CONTEXTS, RING]
+# The feature of protocol/README.md that every core of this version has.
+SHORT_IDS = 1 << 17
+IDENTITY = [0x696E4369, 0x20000, 0x300, 16, POINTS, 0x100 | CONTEXTS, SHORT_IDS | RING]
 
 
 def test(body: Callable[[Any], Awaitable[None]]) -> Any:
@@ -54,7 +56,7 @@ async def registers_and_slverr(dut: Any) -> None:
     """Registers have the values of protocol/STREAM.md; all other addresses give SLVERR, whatever the protection."""
     device = await Device(dut).reset()
     device.stall()
-    head = [IDENTITY[0], 0x10000, *IDENTITY[1:3], 16, POINTS, IDENTITY[5], RING, BEAT_BITS, 512]
+    head = [IDENTITY[0], 0x10000, *IDENTITY[1:3], 16, POINTS, *IDENTITY[5:], BEAT_BITS, 512]
     for place, value in enumerate(head):
         assert await device.read(4 * place) == value, f"register {4 * place:x}"
     known = {4 * i for i in range(10)} | {CONTROL, STATUS, ERRORS, FAULT} | set(range(0x80, 0x9C, 4))
