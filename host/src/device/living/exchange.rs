@@ -41,6 +41,11 @@ impl<'d> LivingDevice<'d> {
         self.backend.name()
     }
 
+    /// Whether the device takes runs of this kind.
+    pub(super) fn takes(&self, kind: RunKind) -> bool {
+        self.identity.takes(kind)
+    }
+
     /// Makes the mesh of these points, which are different and begin with three that span a triangle. Their vertices
     /// are 0, 1, 2 and so on.
     pub(super) fn load(&mut self, points: &[Point], contexts: u32) -> Result<(), Error> {

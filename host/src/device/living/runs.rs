@@ -8,6 +8,7 @@ use std::collections::HashSet;
 use incircle_protocol::{Outcome, RunKind};
 
 use super::exchange::{Item, Part};
+use super::names::Place;
 use super::session::LivingSession;
 use super::LivingMesh;
 use crate::error::Error;
@@ -79,7 +80,7 @@ impl LivingSession<'_> {
 
     pub(super) fn locate_in_runs(&mut self, places: &[Point]) -> Result<Vec<Location>, Error> {
         places.iter().try_for_each(|&place| self.check_grid(place))?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return places.iter().map(|&place| self.locate(place)).collect();
         }
         let parts = self.ask_about(RunKind::Locate, places)?;
@@ -88,7 +89,7 @@ impl LivingSession<'_> {
 
     pub(super) fn nearest_in_runs(&mut self, places: &[Point]) -> Result<Vec<Option<u32>>, Error> {
         places.iter().try_for_each(|&place| self.check_grid(place))?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return places.iter().map(|&place| self.nearest(place)).collect();
         }
         let parts = self.ask_about(RunKind::Nearest, places)?;
@@ -124,19 +125,15 @@ impl LivingSession<'_> {
     }
 
     /// Sends the changes of a run. The host has taken note of them, so a vertex that the device refuses to change is
-    /// changed by making the mesh anew.
+    /// changed when the next question makes the mesh anew.
     fn make(&mut self, pending: &mut Pending) -> Result<(), Error> {
         let kind = pending.kind;
-        let mut is_refused = false;
         for (outcome, _) in self.send(pending)? {
             match (kind, outcome) {
                 (_, Outcome::Done) => {}
-                (RunKind::Delete | RunKind::Move, Outcome::Flat | Outcome::ManyNeighbors) => is_refused = true,
+                (RunKind::Delete | RunKind::Move, Outcome::Flat | Outcome::ManyNeighbors) => self.fall_behind(),
                 (_, other) => return Err(self.unexpected(kind, other)),
             }
-        }
-        if is_refused {
-            return self.load();
         }
         Ok(())
     }
@@ -177,11 +174,15 @@ impl LivingSession<'_> {
                     break;
                 }
             };
-            let alone = self.names.place(point).filter(|place| !place.is_shared()).map(|place| place.vertex);
-            if let Some(vertex) = alone.filter(|_| self.is_loaded) {
-                pending.push(Item { vertex, point }, point);
-                self.vertices[vertex as usize] = None;
-                self.free.push(vertex);
+            let is_shared = self.names.place(point).is_some_and(Place::is_shared);
+            match self.vertex_for(RunKind::Delete, point) {
+                _ if is_shared => {}
+                Some(vertex) => {
+                    pending.push(Item { vertex, point }, point);
+                    self.vertices[vertex as usize] = None;
+                    self.free.push(vertex);
+                }
+                None => self.fall_behind(),
             }
             self.names.take(index);
         }
@@ -199,8 +200,9 @@ impl LivingSession<'_> {
                 Ok(from) => from,
                 Err(error) => return self.make(&mut pending).and(Err(error)),
             };
-            let alone = self.names.place(from).filter(|place| !place.is_shared()).map(|place| place.vertex);
-            let is_plain = self.is_loaded && self.names.place(to).is_none();
+            let is_shared = self.names.place(from).is_some_and(Place::is_shared);
+            let alone = self.vertex_for(RunKind::Move, from).filter(|_| !is_shared);
+            let is_plain = self.names.place(to).is_none();
             let is_apart = !touched.contains(&from) && !touched.contains(&to);
             match alone.filter(|_| is_plain && is_apart) {
                 Some(vertex) => {
