@@ -1,5 +1,6 @@
 //! The tests of the program `incircle-sim`, in one test program whose modules mirror the sources.
 
+mod living;
 mod own_test;
 mod painter;
 mod serve {
