@@ -84,8 +84,7 @@ impl SimDevice {
     /// # Errors
     /// [`SimError::NoRuns`]: no core with runs of the configuration was translated when this crate was built.
     pub fn living(config: Config) -> Result<Self, SimError> {
-        let missing = || SimError::NoRuns { name: config.name, built: built(LIVING).join(", ") };
-        Self::of(find(LIVING, config).ok_or_else(missing)?)
+        Self::of(living_description(config)?)
     }
 
     /// Whether there is a simulated core of this configuration with runs.
@@ -302,6 +301,12 @@ pub(crate) fn description(prefix: &str, config: Config) -> Result<&'static Model
         ring: config.ring,
         built: built(CORE).join(", "),
     })
+}
+
+/// The translated core of a configuration with runs.
+pub(crate) fn living_description(config: Config) -> Result<&'static ModelDescription, SimError> {
+    let missing = || SimError::NoRuns { name: config.name, built: built(LIVING).join(", ") };
+    find(LIVING, config).ok_or_else(missing)
 }
 
 /// The translated core of a configuration, if there is one.

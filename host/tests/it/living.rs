@@ -345,8 +345,9 @@ fn a_core_without_deletions_makes_the_mesh_anew_once_for_many_changes() {
     for point in [[600, 600], [700, 1], [800, 900]] {
         host.insert(Point::from(point)).expect("room");
     }
-    host.delete_all(&[40, 41]).expect("deletions");
-    host.move_all(&[(42, Point::new(9, 9)), (43, Point::new(31, 32))]).expect("moves");
+    let on_host: &mut dyn LivingMesh<Point> = &mut host;
+    on_host.delete_all(&[40, 41]).expect("deletions");
+    on_host.move_all(&[(42, Point::new(9, 9)), (43, Point::new(31, 32))]).expect("moves");
     assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
     assert_eq!(seen.get(), [3, 2]);
 }

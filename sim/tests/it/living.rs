@@ -1,6 +1,7 @@
 //! A mesh that lives on the simulated core with runs, against the triangulation on the processor: the same meshes,
 //! answers and refusals.
 
+use crate::serve::service;
 use incircle::living::{Error as Refusal, Location};
 use incircle::{Device, Error, ErrorKind, LivingMesh, Point, Triangulation};
 use incircle_protocol::{RunKind, FULL, SMALL, TINY};
@@ -75,6 +76,37 @@ fn random_changes_and_questions_agree_with_the_processor() {
     }
     assert!(refused > 3, "{refused} changes were refused");
     assert!(outcomes.iter().all(|&count| count > 100), "{outcomes:?}");
+}
+
+/// The same core behind the model of the serial link, on a line that loses and spoils frames. A change whose answer is
+/// lost is asked for again, and made once.
+#[test]
+fn random_changes_over_a_bad_serial_line_agree_with_the_processor() {
+    let folder = std::env::temp_dir().join(format!("incircle-living-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let link = folder.join("board");
+    let mut command = service::program(&["serve", "--fast", "--living", "--slow", "20"]);
+    command.args(["--fault", "drop-frame=0.05,ber=1e-5,seed=4", "--link"]).arg(&link);
+    let (child, line) = service::start(command);
+    assert!(line.starts_with("ready: "), "{line}");
+    let mut device = Device::open(&format!("serial:{}?slow=20", link.display())).expect("the terminal");
+    let mut session = device.session().expect("a session");
+    let mut mesh = session.living().expect("the core has enough runs");
+    let mut host = Triangulation::new();
+    let mut random = SplitMix64::new(32);
+    for _ in 0..15 {
+        let [found, expected] = change(&mut random, 20, [&mut mesh, &mut host]);
+        assert_eq!(found, expected);
+        let places: Vec<Point> = (0..20).map(|_| point(&mut random, 20)).collect();
+        let nearest: Vec<Option<u32>> = places.iter().map(|&place| host.nearest(place)).collect();
+        assert_eq!(mesh.nearest_all(&places).expect("answers"), nearest);
+    }
+    assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
+    drop(device);
+    let (status, said) = service::end(child, "-TERM");
+    assert_eq!(status.code(), Some(0), "{said}");
+    assert!(!said.contains(" 0 faults"), "{said}");
+    std::fs::remove_dir_all(folder).expect("a folder of our own");
 }
 
 #[test]

@@ -6,7 +6,7 @@ mod painter;
 mod serve {
     mod network;
     mod pcie;
-    mod service;
+    pub mod service;
     mod tap;
     mod terminal;
 }

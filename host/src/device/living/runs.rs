@@ -16,9 +16,6 @@ use incircle_geometry::living::Location;
 use incircle_geometry::order::hilbert;
 use incircle_geometry::Point;
 
-/// Largest number of items of a run, so that a device is not without an answer for long.
-const MOST_ITEMS: usize = 1 << 16;
-
 /// Items of a run that have not been sent.
 struct Pending {
     kind: RunKind,
@@ -60,7 +57,8 @@ impl LivingSession<'_> {
         let (items, places) = (std::mem::take(&mut pending.items), std::mem::take(&mut pending.places));
         let contexts = (self.choices.contexts as usize).max(1);
         let mut parts = Vec::with_capacity(items.len());
-        for (items, places) in items.chunks(MOST_ITEMS).zip(places.chunks(MOST_ITEMS)) {
+        let most = self.device.most_items(pending.kind);
+        for (items, places) in items.chunks(most).zip(places.chunks(most)) {
             let order = dealt(places, contexts);
             let run: Vec<Item> = order.iter().map(|&index| items[index as usize]).collect();
             let answers = self.device.ask_all(pending.kind, &run)?;

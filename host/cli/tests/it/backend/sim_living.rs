@@ -30,14 +30,16 @@ fn made_scripts_give_the_files_of_the_processor() {
 fn the_address_chooses_a_core_with_runs_or_one_without() {
     let scratch = Scratch::new();
     scratch.write("s.txt", "insert 0 0\ninsert 9 0\ninsert 0 9\nlocate 1 1\ndelete 1\nnearest 8 1\ninsert 5 5\n");
-    for (address, by) in [("sim?living=yes", "sim"), ("sim?config=small&living=yes", "sim"), ("sim?living=no", "cpu")] {
+    for (address, by) in
+        [("sim?living=yes", "sim"), ("sim?config=small&living=yes", "sim"), ("sim?config=small&living=no", "cpu")]
+    {
         assert_eq!(compare(&scratch, address)["changes_by"], by, "{address}");
     }
     let missing = "there is no simulated core \"tiny\" with runs: choose one of small, or the back end clock";
     scratch.run("replay s.txt -o m.ele --backend sim?config=tiny&living=yes").fails(4, &[missing]);
     let plain = "cannot keep a mesh that lives";
     scratch.write("p.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
-    scratch.run("interpolate p.csv --grid 4 -o v.csv --backend sim?living=no --quiet").fails(2, &[plain]);
+    scratch.run("interpolate p.csv --grid 4 -o v.csv --backend sim?config=small&living=no --quiet").fails(2, &[plain]);
     // A core with runs does all other jobs as well.
     scratch.run("generate uniform -n 300 --bits 16 -o u.csv").ok();
     scratch.run("triangulate u.csv -o a.ele -q").ok();
