@@ -44,7 +44,7 @@ impl fmt::Display for ExportError {
             Self::Link(error) => return error.fmt(f),
             Self::Udp(error) => return error.fmt(f),
             Self::RunsBehindLink => {
-                return f.write_str("no link carries runs yet: export the core with runs alone, with --top core");
+                return f.write_str("a core with runs has no link yet: export it alone, with --top core");
             }
             Self::BeatBits(given) => {
                 let [narrow, wide] = BEAT_BITS;
@@ -128,8 +128,8 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     })
 }
 
-/// The whole Verilog of a core of one engine with runs, which asks about its mesh and inserts into it: the core, and the ANSI wrapper
-/// [`CORE_NAME`](crate::top::CORE_NAME) around it.
+/// The whole Verilog of a core of one engine with runs, which answers questions about its mesh and inserts into it: the
+/// core, and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///

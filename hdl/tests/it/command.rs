@@ -43,7 +43,7 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
         ("--points 64 --contexts 3 --engines 3", 1, "a chip cannot have 3 engines: choose 1, 2 or 4"),
         ("--points 64 --contexts 3 --ring 65", 1, "a boundary list cannot hold 65 edges"),
         ("--config dual --living", 1, "cannot have 2 engines: choose a configuration of one"),
-        ("--config small --living --top serial", 1, "no link carries runs yet: export the core with runs alone"),
+        ("--config small --living --top serial", 1, "a core with runs has no link yet: export it alone"),
         ("--config small --living --top stream", 1, "with --top core"),
         ("--points 64", 2, "--contexts"),
         ("--config full --engines 2", 2, "--config"),

@@ -349,8 +349,8 @@ fn has_simulated_runs(config: Config) -> bool {
 }
 
 /// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or
-/// else the largest, which does the job in parts. If runs are chosen, only simulated cores with runs count. Fails if the
-/// coordinates have more bits than any core takes.
+/// else the largest, which does the job in parts. If runs are chosen, only simulated cores with runs count. Fails if
+/// the coordinates have more bits than any core takes.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
     choice.check_bits()?;
     let holds = |config: &Config| distinct.is_some_and(|distinct| config.points as usize >= distinct);
