@@ -6,21 +6,10 @@
 
 use incircle_protocol::RunKind;
 
-use super::session::LivingSession;
+use super::session::{Held, LivingSession};
 use crate::error::Error;
 use crate::job::prepare::prepare;
 use incircle_geometry::Point;
-
-/// The mesh that a device has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Held {
-    /// None, because all points lie on one line. The host answers.
-    Nothing,
-    /// One that lacks changes, or none yet. The next question makes the mesh anew, once for all changes before it.
-    Older,
-    /// The mesh of the points.
-    Mesh,
-}
 
 impl LivingSession<'_> {
     /// The vertex of the device at a place that has points, if the device can make a change of this kind to it.

@@ -5,7 +5,6 @@ use std::time::Duration;
 use incircle_protocol::{Identity, Outcome, RunKind};
 
 use super::exchange::LivingDevice;
-use super::held::Held;
 use super::names::Names;
 use super::LivingMesh;
 use crate::device::backend::Backend;
@@ -21,6 +20,17 @@ pub(crate) struct Choices {
     /// Order of insertion where many points are given to the device at once, and the contexts that work then.
     pub(crate) order: Order,
     pub(crate) contexts: u32,
+}
+
+/// The mesh that a device has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Held {
+    /// None, because all points lie on one line. The host answers.
+    Nothing,
+    /// One that lacks changes, or none yet. The next question makes the mesh anew, once for all changes before it.
+    Older,
+    /// The mesh of the points.
+    Mesh,
 }
 
 /// A mesh that lives on a device, with the methods of [`LivingMesh`].
