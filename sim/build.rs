@@ -22,6 +22,8 @@ use verilated::build::{Builder, ModelSource, Optimisation};
 const TOP: &str = "incircle_core";
 const SERIAL_TOP: &str = "incircle_serial_top";
 const STREAM_TOP: &str = "incircle_stream_top";
+/// The cores with runs. A core more takes the C++ compiler a minute or more.
+const LIVING: [Config; 1] = [SMALL];
 /// The simulated cards, with the bits of their beats.
 const CARDS: [(Config, u32); 3] = [(SMALL, 64), (SMALL, 128), (FULL, 64)];
 
@@ -42,6 +44,14 @@ fn main() {
             // What a model needs for waveforms costs a third of its speed, also while it writes none.
             let traced = ModelSource::new(&format!("traced_{name}"), TOP, verilog.as_str()).fast_clocks(true);
             builder = builder.model(source.optimisation(Optimisation::Fast)).model(traced.trace(true));
+        }
+    }
+    for config in LIVING {
+        let name = format!("living_core_{}", config.name);
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::core_with_questions(config, false));
+            let source = ModelSource::new(&name, TOP, verilog).fast_clocks(true);
+            builder = builder.model(source.optimisation(Optimisation::Fast));
         }
     }
     for config in [SMALL, FULL] {

@@ -45,7 +45,8 @@ pub(crate) enum Command {
 #[command(
     group = ArgGroup::new("core_size").args(["config", "points"]),
     after_help = "Examples:\n  incircle-hdl export --config full --top serial -o serial.v\n  \
-                  incircle-hdl export --points 2048 --contexts 12 --engines 2 -o chip.v"
+                  incircle-hdl export --points 2048 --contexts 12 --engines 2 -o chip.v\n  \
+                  incircle-hdl export --config full --living -o living.v"
 )]
 pub(crate) struct ExportArguments {
     /// Configuration: tiny, small, full, large, dual or quad. Default: the ones that the repository holds.
@@ -63,6 +64,10 @@ pub(crate) struct ExportArguments {
     /// Number of engines of a chip of your own size, each a core with a memory of its own: 1, 2 or 4.
     #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
     pub(crate) engines: u32,
+    /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest and InsertAs. For cores of one
+    /// engine, without a link.
+    #[arg(long, requires = "core_size")]
+    pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.
     #[arg(short, long, requires = "core_size")]
     pub(crate) out: Option<PathBuf>,

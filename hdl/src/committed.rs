@@ -29,6 +29,8 @@ pub const COMMITTED: [(Config, Top); 8] = [
 pub enum Top {
     /// The core with its two streams of words.
     Core,
+    /// The core with runs, with the same two streams.
+    Living,
     /// The core behind a serial link.
     Serial(LinkConfig),
     /// The core behind a stream link with beats of this many bits.
@@ -67,6 +69,7 @@ pub fn folder() -> PathBuf {
 pub fn file((config, top): (Config, Top)) -> PathBuf {
     let link = match top {
         Top::Core => "",
+        Top::Living => "_living",
         Top::Serial(_) => "_serial",
         Top::Stream(_) => "_stream",
         Top::Udp(..) => "_udp",
@@ -82,6 +85,7 @@ pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
     let Config { name, points, ring, contexts, engines } = config;
     let (what, verilog) = match top {
         Top::Core => ("incircle core", export::core(config, with_probe)?),
+        Top::Living => ("incircle core with runs", export::core_with_questions(config, with_probe)?),
         Top::Serial(link) => ("incircle core behind a serial link", export::serial_top(config, link, with_probe)?),
         Top::Stream(beat_bits) => {
             ("incircle core behind a stream link", export::stream_top(config, beat_bits, with_probe)?)

@@ -11,6 +11,7 @@ use clap::Parser;
 use incircle_hdl::board::sizes::{self, Family, Sizes, SizesRequest, FAMILIES, SIZES};
 use incircle_hdl::board::{self, Board, BoardError, BoardLink, Clock, Report, Request, BOARDS, MHZ};
 use incircle_hdl::committed::{self, Top};
+use incircle_hdl::export::ExportError;
 use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS};
 use std::io::Write;
 use std::path::Path;
@@ -19,10 +20,24 @@ use std::process::ExitCode;
 /// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
     let ExportArguments {
-        config, points, contexts, ring, engines, out, probe, top, clock_hz, fifo_bytes, width, ..
+        config,
+        points,
+        contexts,
+        ring,
+        engines,
+        living,
+        out,
+        probe,
+        top,
+        clock_hz,
+        fifo_bytes,
+        width,
+        ..
     } = arguments;
     let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts, engines });
     let top = match top {
+        TopName::Core if living => Top::Living,
+        _ if living => return Err(committed::WriteError::Export(ExportError::RunsBehindLink)),
         TopName::Core => Top::Core,
         TopName::Serial => {
             let fifo_bytes = fifo_bytes.unwrap_or(SERIAL_FIFO_BYTES);

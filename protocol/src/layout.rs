@@ -30,7 +30,8 @@ pub struct Identity {
     /// solo insertion, by flips.
     pub ring_capacity: u32,
     /// The features that the device has beyond the commands of every device, a bit each:
-    /// [`FEATURE_RUNS`](crate::FEATURE_RUNS). All other bits are 0, and a host does not look at them.
+    /// [`FEATURE_RUNS`](crate::FEATURE_RUNS), [`FEATURE_SHORT_IDS`](crate::FEATURE_SHORT_IDS), and one for each
+    /// [kind of runs](crate::RunKind::feature). All other bits are 0, and a host does not look at them.
     pub features: u32,
 }
 

@@ -48,7 +48,9 @@ pub use frame::{
 pub use layout::{
     Identity, InsertReport, Layout, ENGINES_SHIFT, FEATURES_SHIFT, IDENTITY_WORDS, INSERT_REPORT_WORDS, NARROW_ID_BITS,
 };
-pub use living::{part_head, part_item, part_outcome, Located, RunKind, FEATURE_RUNS, ITEM_NUMBERS, OUTCOME_SHIFT};
+pub use living::{
+    part_head, part_item, part_outcome, Located, RunKind, CORE_RUNS, FEATURE_RUNS, ITEM_NUMBERS, OUTCOME_SHIFT,
+};
 pub use opcode::Opcode;
 pub use short_ids::{ShortIds, FEATURE_SHORT_IDS, TRIANGLES_SHORT, TRIANGLES_TWELVE};
 pub use status::{Outcome, Status};

@@ -4,14 +4,21 @@
 //! fixed length for each item, and each part begins with the number of its item, because a device that works on several
 //! items at once may finish them in another order.
 //!
-//! A device has these commands if its [`Identity`](crate::Identity) has the feature [`FEATURE_RUNS`].
+//! The features of its [`Identity`] say which of these commands a device has: [`FEATURE_RUNS`] stands for all of them,
+//! and [`RunKind::feature`] for one.
 
-use crate::layout::Layout;
+use crate::layout::{Identity, Layout};
 use crate::opcode::Opcode;
 use crate::status::Outcome;
 
-/// The bit of [`Identity::features`](crate::Identity::features) of a device that takes runs.
+/// The bit of [`Identity::features`] of a device that takes runs of all kinds.
 pub const FEATURE_RUNS: u32 = 1;
+
+/// The features of a core with runs: the kinds that the hardware has so far, a bit each.
+pub const CORE_RUNS: u32 = RunKind::Locate.feature()
+    | RunKind::Interpolate.feature()
+    | RunKind::Nearest.feature()
+    | RunKind::InsertAs.feature();
 
 /// Lowest bit of the outcome in the first word of a part of an answer.
 pub const OUTCOME_SHIFT: u32 = 24;
@@ -60,6 +67,11 @@ impl RunKind {
         })
     }
 
+    /// The bit of [`Identity::features`] of a device that takes runs of this kind, whether or not it takes others.
+    pub const fn feature(self) -> u32 {
+        4 << (self.opcode() as u32 - Opcode::Locate as u32)
+    }
+
     /// Whether the items change the mesh. Runs of the other kinds only ask about it.
     pub const fn is_change(self) -> bool {
         matches!(self, Self::InsertAs | Self::Delete | Self::Move)
@@ -87,6 +99,13 @@ impl RunKind {
             Self::Interpolate => 10,
             Self::Nearest | Self::InsertAs | Self::Delete | Self::Move => 2,
         }
+    }
+}
+
+impl Identity {
+    /// Whether the device takes runs of this kind.
+    pub const fn takes(&self, kind: RunKind) -> bool {
+        self.features & (FEATURE_RUNS | kind.feature()) != 0
     }
 }
 
@@ -145,6 +164,8 @@ impl Located {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::layout::IDENTITY_WORDS;
+    use crate::short_ids::FEATURE_SHORT_IDS;
 
     #[test]
     fn every_kind_has_an_opcode_of_its_own() {
@@ -157,6 +178,20 @@ mod tests {
             assert_eq!(Opcode::from_u8(number).and_then(RunKind::of), None);
             assert_eq!(Opcode::from_u8(number), Opcode::of_every_device(number));
         }
+    }
+
+    #[test]
+    fn every_kind_has_a_feature_of_its_own() {
+        let identity = |features| Identity { features, ..Identity::from_words([0; IDENTITY_WORDS]) };
+        let taken = |features| RunKind::ALL.map(|kind| identity(features).takes(kind));
+        let others = FEATURE_RUNS | FEATURE_SHORT_IDS;
+        assert_eq!(taken(FEATURE_SHORT_IDS), [false; 6]);
+        assert_eq!(taken(FEATURE_RUNS), [true; 6]);
+        for kind in RunKind::ALL {
+            assert_eq!(kind.feature() & others, 0);
+            assert_eq!(taken(kind.feature()), RunKind::ALL.map(|other| other == kind));
+        }
+        assert_eq!(taken(CORE_RUNS), [true, true, true, true, false, false]);
     }
 
     #[test]

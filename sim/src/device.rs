@@ -17,6 +17,8 @@ pub(crate) const RESET_CLOCKS: u32 = 4;
 pub(crate) const CORE: &str = "core_";
 /// The same for cores that can write waveforms. They are slower, also while they write none.
 const TRACED: &str = "traced_core_";
+/// The same for cores with runs.
+const LIVING: &str = "living_core_";
 
 /// A simulated core, started and reset.
 ///
@@ -75,6 +77,19 @@ impl SimDevice {
     /// As [`SimDevice::new`].
     pub fn traced(config: Config) -> Result<Self, SimError> {
         Self::of(description(TRACED, config)?)
+    }
+
+    /// A simulated core of this configuration with runs, for a mesh that lives.
+    ///
+    /// # Errors
+    /// [`SimError::NoRuns`]: no core with runs of the configuration was translated when this crate was built.
+    pub fn living(config: Config) -> Result<Self, SimError> {
+        Self::of(living_description(config)?)
+    }
+
+    /// Whether there is a simulated core of this configuration with runs.
+    pub fn has_living(config: Config) -> bool {
+        find(LIVING, config).is_some()
     }
 
     /// A device around any model that has the two streams.
@@ -279,18 +294,28 @@ impl SimDevice {
 
 /// The translated core of a configuration, with the name that follows this prefix.
 pub(crate) fn description(prefix: &str, config: Config) -> Result<&'static ModelDescription, SimError> {
-    let found = NAMED.contains(&config).then(|| models::find(&format!("{prefix}{}", config.name))).flatten();
-    found.ok_or_else(|| SimError::NotBuilt {
+    find(prefix, config).ok_or_else(|| SimError::NotBuilt {
         name: config.name,
         points: config.points,
         contexts: config.contexts,
         ring: config.ring,
-        built: built().join(", "),
+        built: built(CORE).join(", "),
     })
 }
 
-/// Names of the configurations that were translated when this crate was built.
-fn built() -> Vec<&'static str> {
+/// The translated core of a configuration with runs.
+pub(crate) fn living_description(config: Config) -> Result<&'static ModelDescription, SimError> {
+    let missing = || SimError::NoRuns { name: config.name, built: built(LIVING).join(", ") };
+    find(LIVING, config).ok_or_else(missing)
+}
+
+/// The translated core of a configuration, if there is one.
+fn find(prefix: &str, config: Config) -> Option<&'static ModelDescription> {
+    NAMED.contains(&config).then(|| models::find(&format!("{prefix}{}", config.name))).flatten()
+}
+
+/// Names of the configurations that were translated when this crate was built, of the cores with this prefix.
+fn built(prefix: &str) -> Vec<&'static str> {
     let names = models::NAMES.iter();
-    names.filter_map(|name| name.strip_prefix(CORE)).collect()
+    names.filter_map(|name| name.strip_prefix(prefix)).collect()
 }

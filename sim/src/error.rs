@@ -41,6 +41,14 @@ pub enum SimError {
         /// Names of the configurations that were built.
         built: String,
     },
+    /// No core of this configuration with runs was built.
+    #[error("there is no simulated core {name:?} with runs: choose one of {built}, or the back end clock")]
+    NoRuns {
+        /// Name that was asked for.
+        name: &'static str,
+        /// Names of the configurations that were built.
+        built: String,
+    },
     /// No board of this configuration was built.
     #[error("there is no simulated board {name:?}: choose one of {built}")]
     NoBoard {

@@ -1,12 +1,12 @@
 //! The incircle core in Verilator, as a device that takes and returns words.
 //!
 //! The build of this crate exports the Verilog of every named configuration ([`incircle_protocol::NAMED`]) and
-//! translates it. [`SimDevice`] drives the two streams of the core: `command_{valid,ready,data}` and
-//! `response_{valid,ready,data,both}`. [`serial`] has whole boards with such a core behind a serial line; [`faults`]
-//! disturbs that line, and [`serve`] puts a board behind a pseudo-terminal. [`network`] has boards behind the pins of a
-//! PHY of Ethernet. [`pcie`] has cards behind the files of their driver, in a directory. The program `incircle-sim`
-//! serves boards and cards. [`open`] and [`SimTransport`] make a core a device of the library `incircle`, and [`waves`]
-//! lays out waveforms.
+//! translates it, and `small` once more with runs. [`SimDevice`] drives the two streams of the core:
+//! `command_{valid,ready,data}` and `response_{valid,ready,data,both}`. [`serial`] has whole boards with such a core
+//! behind a serial line; [`faults`] disturbs that line, and [`serve`] puts a board behind a pseudo-terminal.
+//! [`network`] has boards behind the pins of a PHY of Ethernet. [`pcie`] has cards behind the files of their driver, in
+//! a directory. The program `incircle-sim` serves boards and cards. [`open`] and [`SimTransport`] make a core a device
+//! of the library `incircle`, and [`waves`] lays out waveforms.
 //!
 //! The software twin of the simulated core is `incircle_model`, which this crate uses where no pins are needed.
 //!

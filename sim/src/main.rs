@@ -56,6 +56,9 @@ enum Task {
         /// Leave out the bits of the line: run the model of the serial link around the Verilated core.
         #[arg(long)]
         fast: bool,
+        /// Take the core small with runs, for a mesh that lives.
+        #[arg(long, requires = "fast")]
+        living: bool,
         /// Smallest ratio of real time to the board's time; by default it is measured, or 50 with `--fast`.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
         slow: Option<u32>,
@@ -119,6 +122,14 @@ enum Core {
     Full,
 }
 
+/// The board behind a terminal.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum BoardKind {
+    Pins,
+    Quick,
+    Living,
+}
+
 /// The device behind the files of a card.
 #[derive(Clone, Copy)]
 enum CardKind {
@@ -141,7 +152,14 @@ fn main() -> ExitCode {
         Task::Layout { waveform } => write_layout(&waveform),
         Task::ServeUdp { config, tap: Some(tap), .. } => run_tap(config.config(), &tap),
         Task::ServeUdp { listen, config, fault, fast, tap: None } => run_network(config.config(), listen, fault, fast),
-        Task::Serve { link, config, fault, fast, slow } => run(config.config(), link, fault, fast, slow),
+        Task::Serve { link, config, fault, fast, living, slow } => {
+            let kind = match (fast, living) {
+                (_, true) => BoardKind::Living,
+                (true, false) => BoardKind::Quick,
+                (false, false) => BoardKind::Pins,
+            };
+            run(config.config(), kind, Service { link, faults: fault, slow: slow.unwrap_or(0) })
+        }
         Task::ServePcie { dir, config, fault, width, fast, null } => {
             let kind = if null {
                 CardKind::Null
@@ -241,21 +259,20 @@ fn run_card(
     Ok(())
 }
 
-fn run(
-    config: Config,
-    link: PathBuf,
-    faults: FaultSpec,
-    is_quick: bool,
-    slow: Option<u32>,
-) -> Result<(), Box<dyn Error>> {
+/// Serves a board. A ratio of 0 in the service is not chosen yet.
+fn run(config: Config, kind: BoardKind, mut service: Service) -> Result<(), Box<dyn Error>> {
     let stops = stops()?;
-    let (mut board, what): (Box<dyn Board>, _) = if is_quick {
-        (Box::new(QuickBoard::new(config, board_link(config))?), "without the bits of its line")
-    } else {
-        (Box::new(PinBoard::new(config)?), "at its pins")
+    let (mut board, what): (Box<dyn Board>, _) = match kind {
+        BoardKind::Pins => (Box::new(PinBoard::new(config)?), "at its pins"),
+        BoardKind::Quick => (Box::new(QuickBoard::new(config, board_link(config))?), "without the bits of its line"),
+        BoardKind::Living => {
+            (Box::new(QuickBoard::living(config, board_link(config))?), "with runs and without the bits of its line")
+        }
     };
-    let slow = slow.unwrap_or_else(|| if is_quick { QUICK_SLOW } else { trial(board.as_mut()) });
-    let service = Service { link, faults, slow };
+    if service.slow == 0 {
+        service.slow = if kind == BoardKind::Pins { trial(board.as_mut()) } else { QUICK_SLOW };
+    }
+    let slow = service.slow;
     let ready = || {
         let path = service.link.display();
         say_ready(&format!(

@@ -22,6 +22,8 @@ pub struct AnswerWords {
     pub contexts: Signal<In, Bits<5>>,
     pub engines: Signal<In, Bits<8>>,
     pub ring_capacity: Signal<In, Bits<7>>,
+    /// In a core with runs: the word of the identity with the features alone; a constant.
+    pub own_features: Vec<Signal<In, Word>>,
     pub tally: Signal<In, Tally>,
     pub insertions: Signal<In, Word>,
     pub duplicates: Signal<In, Word>,
@@ -47,6 +49,13 @@ pub struct AnswerWords {
     features: Signal<Local, Word>,
 }
 
+impl AnswerWords {
+    /// The block of a core that says its own features.
+    pub fn with_features() -> Self {
+        Self { own_features: vec![Signal::default()], ..Self::default() }
+    }
+}
+
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     Opcode::Hello as u8 == 1
@@ -69,6 +78,9 @@ impl Logic for AnswerWords {
         self.place.next = self.index.val().get_bits::<3>(0);
         self.engines_shift.next = 8.into();
         self.features.next = 0x0002_0000.into();
+        for i in 0..self.own_features.len() {
+            self.features.next = self.own_features[i].val();
+        }
         self.wide_contexts.next = bit_cast::<32, 5>(self.contexts.val());
         self.wide_engines.next = bit_cast::<32, 8>(self.engines.val());
         self.shifted_engines.next = self.wide_engines.val() << self.engines_shift.val();

@@ -33,6 +33,8 @@ pub enum ExportError {
     Udp(UdpError),
     /// A width of beats with which no stream link can be built.
     BeatBits(u32),
+    /// A core with runs was asked for behind a link.
+    RunsBehindLink,
 }
 
 impl fmt::Display for ExportError {
@@ -41,6 +43,9 @@ impl fmt::Display for ExportError {
             Self::Config(error) => return error.fmt(f),
             Self::Link(error) => return error.fmt(f),
             Self::Udp(error) => return error.fmt(f),
+            Self::RunsBehindLink => {
+                return f.write_str("a core with runs has no link yet: export it alone, with --top core");
+            }
             Self::BeatBits(given) => {
                 let [narrow, wide] = BEAT_BITS;
                 return write!(f, "a beat of a stream has {narrow} or {wide} bits, not {given}: choose one of them");
@@ -123,8 +128,8 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     })
 }
 
-/// The whole Verilog of a core of one engine that answers questions about its mesh: the core, and the ANSI wrapper
-/// [`CORE_NAME`](crate::top::CORE_NAME) around it.
+/// The whole Verilog of a core of one engine with runs, which answers questions about its mesh and inserts into it: the
+/// core, and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///

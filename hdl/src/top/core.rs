@@ -32,6 +32,8 @@ pub struct Core {
     pub response: AnswerSource,
     /// The write port of the triangle memory, for simulation.
     pub write: Signal<Out, Write>,
+    /// In a core with runs: the word of the identity with the features.
+    pub features: Vec<Signal<In, Bits<32>>>,
     /// In a core that answers questions: the ports of the engine for them, and what they must know of the core.
     pub question_runs: Vec<Signal<In, Bit>>,
     pub question_asks: Vec<Signal<In, Bit>>,
@@ -119,6 +121,8 @@ impl Core {
         Ok(Self {
             engine: InsertionEngine::with_questions(config.check()?),
             command_port: CommandPort::with_questions(),
+            answer_words: AnswerWords::with_features(),
+            features: vec![Signal::default()],
             question_runs: vec![Signal::default()],
             question_asks: vec![Signal::default()],
             question: vec![Signal::default()],
@@ -227,6 +231,7 @@ impl Logic for Core {
         self.latencies.select.next = self.responder.index.val();
 
         for i in 0..self.view.len() {
+            self.answer_words.own_features[i].next = self.features[i].val();
             self.engine.question_runs[i].next = self.question_runs[i].val();
             self.engine.question_asks[i].next = self.question_asks[i].val();
             self.engine.question[i].next = self.question[i].val();

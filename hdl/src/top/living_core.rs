@@ -15,7 +15,7 @@ use crate::engine::{Completion, Write};
 use crate::living::types::Standing;
 use crate::living::{Questions, RunGate};
 use crate::prelude::*;
-use incircle_protocol::{Config, ConfigError};
+use incircle_protocol::{Config, ConfigError, CORE_RUNS, FEATURES_SHIFT, FEATURE_SHORT_IDS};
 
 #[derive(LogicBlock, Default)]
 pub struct LivingCore {
@@ -37,6 +37,13 @@ pub struct LivingCore {
     engine_shift: Signal<Local, Bits<16>>,
 }
 
+// The kernel holds the features as a literal, because rust-hdl allows no constants there. A changed protocol fails
+// here.
+const _: () = assert!(
+    (FEATURE_SHORT_IDS | CORE_RUNS) << FEATURES_SHIFT == 0x003e_0000,
+    "the identity of this core follows the protocol"
+);
+
 impl LivingCore {
     /// The core of a configuration of one engine.
     ///
@@ -56,6 +63,7 @@ impl Logic for LivingCore {
     fn update(&mut self) {
         clock!(self, clock, core, questions);
         self.engine_shift.next = 8.into();
+        self.core.features[0].next = 0x003e_0000.into();
         self.core.reset.next = self.reset.val();
         self.questions.reset.next = self.reset.val();
         CommandSink::link(&mut self.command, &mut self.gate.command);

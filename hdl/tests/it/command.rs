@@ -18,6 +18,7 @@ fn cores_and_chips_of_other_sizes_are_exported() {
     for (place, (arguments, modules)) in [
         ("--points 64 --contexts 3", &["module incircle_core ("][..]),
         ("--points 64 --contexts 3 --ring 8 --probe", &["module incircle_core (", "write_valid"]),
+        ("--points 64 --contexts 3 --living", &["incircle core with runs", "module incircle_core (", "$questions"]),
         ("--points 16 --contexts 2 --engines 2", &["module incircle_core (", "$router", "$slot1"]),
         ("--points 16 --contexts 2 --engines 4 --top stream", &["module incircle_stream_top (", "$slot3"]),
     ]
@@ -41,6 +42,9 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
         ("--points 64 --contexts 25", 1, "a core cannot have 25 contexts: choose a number from 1 to 24"),
         ("--points 64 --contexts 3 --engines 3", 1, "a chip cannot have 3 engines: choose 1, 2 or 4"),
         ("--points 64 --contexts 3 --ring 65", 1, "a boundary list cannot hold 65 edges"),
+        ("--config dual --living", 1, "cannot have 2 engines: choose a configuration of one"),
+        ("--config small --living --top serial", 1, "a core with runs has no link yet: export it alone"),
+        ("--config small --living --top stream", 1, "with --top core"),
         ("--points 64", 2, "--contexts"),
         ("--config full --engines 2", 2, "--config"),
         ("--config full --contexts 2 --engines 4", 2, "--config"),
@@ -55,9 +59,9 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
 
 #[test]
 fn options_of_a_link_need_a_core() {
-    for option in ["--width", "--clock-hz", "--fifo-bytes"] {
+    for option in ["--width=128", "--clock-hz=128", "--fifo-bytes=128", "--living"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-hdl"));
-        let output = command.args(["export", option, "128"]).output().expect("the command starts");
+        let output = command.args(["export", option]).output().expect("the command starts");
         assert_eq!(output.status.code(), Some(2), "{option}: {output:?}");
     }
 }

@@ -111,6 +111,8 @@ pub struct Choice {
     threads: Option<NonZeroU32>,
     /// The configuration of the core, if one is chosen.
     pub config: Option<Config>,
+    /// Whether a simulated core has runs, if that is chosen.
+    living: Option<bool>,
     /// Bits of a coordinate, of the grid and of a model.
     pub coord_bits: u32,
 }
@@ -125,12 +127,16 @@ impl Choice {
         let asked = arguments.config.map(ConfigName::config);
         let (threads, config) = match address {
             DeviceAddress::Cpu { threads } => (once(threads, arguments.threads, "threads")?, asked),
-            DeviceAddress::Clock { config } | DeviceAddress::Sim { config } => {
+            DeviceAddress::Clock { config } | DeviceAddress::Sim { config, .. } => {
                 (arguments.threads, once(config, asked, "config")?)
             }
             _ => (arguments.threads, asked),
         };
-        let choice = Self { address, threads, config, coord_bits };
+        let living = match address {
+            DeviceAddress::Sim { living, .. } => living,
+            _ => None,
+        };
+        let choice = Self { address, threads, config, living, coord_bits };
         if choice.threads.is_some() && !matches!(choice.address, DeviceAddress::Cpu { .. }) {
             return Err(Failure::usage("--threads is for the CPU triangulator: it needs --backend cpu"));
         }
@@ -159,6 +165,26 @@ impl Choice {
         match self.address {
             DeviceAddress::Cpu { .. } => Self { threads, ..self },
             _ => self,
+        }
+    }
+
+    /// The same back end for a mesh that lives, of up to `room` points. A simulated core then has runs, if a core with
+    /// runs was built that the address and the points allow.
+    pub fn with_runs_for(self, room: usize) -> Result<Self, Failure> {
+        if !matches!(self.address, DeviceAddress::Sim { .. }) || self.living.is_some() {
+            return Ok(self);
+        }
+        let living = Self { living: Some(true), ..self.clone() };
+        let config = config_for(&living, Some(room))?;
+        let is_possible = has_simulated_runs(config) && (self.config.is_some() || config.points as usize >= room);
+        Ok(if is_possible { Self { config: Some(config), ..living } } else { self })
+    }
+
+    /// Whether the device takes the changes and the questions of a mesh that lives itself.
+    pub fn has_runs(&self) -> bool {
+        match self.address {
+            DeviceAddress::Model { .. } | DeviceAddress::Clock { .. } => true,
+            _ => self.living == Some(true),
         }
     }
 
@@ -258,7 +284,7 @@ pub fn open_with_room(
         DeviceAddress::Sim { .. } => {
             check_sim()?;
             let config = config_for(choice, room)?;
-            (Ok(open_sim(config, trace)?), Some(config))
+            (Ok(open_sim(config, choice.living == Some(true), trace)?), Some(config))
         }
         other => (Device::at(other), None),
     };
@@ -302,21 +328,34 @@ pub fn check_sim() -> Result<(), Failure> {
 }
 
 #[cfg(not(feature = "sim"))]
-fn open_sim(_: Config, _: Option<Trace<'_>>) -> Result<Device, Failure> {
+fn open_sim(_: Config, _: bool, _: Option<Trace<'_>>) -> Result<Device, Failure> {
     check_sim().and(Err(Failure::usage("there is no simulated core in this build")))
 }
 
 #[cfg(feature = "sim")]
-fn open_sim(config: Config, trace: Option<Trace<'_>>) -> Result<Device, Failure> {
-    crate::sim_backend::open(config, trace)
+fn open_sim(config: Config, has_runs: bool, trace: Option<Trace<'_>>) -> Result<Device, Failure> {
+    crate::sim_backend::open(config, has_runs, trace)
+}
+
+#[cfg(not(feature = "sim"))]
+fn has_simulated_runs(_: Config) -> bool {
+    false
+}
+
+/// Whether a simulated core of this configuration with runs was built.
+#[cfg(feature = "sim")]
+fn has_simulated_runs(config: Config) -> bool {
+    incircle_sim::SimDevice::has_living(config)
 }
 
 /// The configuration for a job of `distinct` points: the chosen one, or else the smallest that holds the points, or
-/// else the largest, which does the job in parts. Fails if the coordinates have more bits than any core takes.
+/// else the largest, which does the job in parts. If runs are chosen, only simulated cores with runs count. Fails if
+/// the coordinates have more bits than any core takes.
 fn config_for(choice: &Choice, distinct: Option<usize>) -> Result<Config, Failure> {
     choice.check_bits()?;
     let holds = |config: &Config| distinct.is_some_and(|distinct| config.points as usize >= distinct);
-    Ok(choice.config.or(usual().find(holds)).unwrap_or(LARGE))
+    let possible = || usual().filter(|&config| choice.living != Some(true) || has_simulated_runs(config));
+    Ok(choice.config.or_else(|| possible().find(holds)).or_else(|| possible().last()).unwrap_or(LARGE))
 }
 
 /// The number of distinct points in a list.

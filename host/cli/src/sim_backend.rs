@@ -8,11 +8,17 @@ use crate::failure::{printable, Exit, Failure};
 use crate::interrupt;
 use crate::trace::Trace;
 
-/// Makes a core of this configuration. With `trace` a waveform of all its signals goes to that file, which is complete
-/// once the device is dropped.
-pub fn open(config: Config, trace: Option<Trace<'_>>) -> Result<Device, Failure> {
+/// Makes a core of this configuration, with or without runs. With `trace` a waveform of all its signals goes to that
+/// file, which is complete once the device is dropped.
+pub fn open(config: Config, has_runs: bool, trace: Option<Trace<'_>>) -> Result<Device, Failure> {
     let no_device = |error: SimError| Failure::new(Exit::NoDevice, error.to_string());
     let device = match trace {
+        Some(_) if has_runs => {
+            return Err(Failure::usage(
+                "a simulated core with runs writes no waveform: leave out --trace, or living=yes in the address",
+            ));
+        }
+        None if has_runs => SimDevice::living(config).map_err(no_device)?,
         None => SimDevice::new(config).map_err(no_device)?,
         Some(Trace { path, job }) => {
             let mut device = SimDevice::traced(config).map_err(no_device)?;

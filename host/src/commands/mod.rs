@@ -58,6 +58,11 @@ impl CommandChannel {
         self.transport.capabilities()
     }
 
+    /// Number of commands that the transport has sent again.
+    pub(crate) fn repeats(&self) -> u64 {
+        self.transport.repeats()
+    }
+
     pub(crate) fn clocks(&self) -> Option<DeviceClocks> {
         self.transport.clocks()
     }

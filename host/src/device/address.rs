@@ -27,6 +27,7 @@ use crate::transports::udp::UdpAddress;
 /// | `clock` | the core's model, clock by clock, in the configuration `large` | to learn a core's records and cycles |
 /// | `clock?config=NAME` | the same in the configuration `tiny`, `small`, `full`, `large`, `dual` or `quad` | |
 /// | `sim`, `sim?config=NAME` | the Verilog of the core in Verilator | to simulate the hardware itself |
+/// | `sim?living=yes`, `sim?config=small&living=yes` | the same core with runs | for a mesh that lives |
 /// | `serial:PORT` | a board at a serial port, such as `serial:/dev/ttyUSB0` | |
 /// | `serial:PORT?baud=B&slow=S` | the same at `B` bits per second, with times stretched `S` times | |
 /// | `udp:HOST`, `udp:HOST:PORT` | a device on the network, at UDP port 26947 unless another is named | |
@@ -70,6 +71,8 @@ pub enum DeviceAddress {
     Sim {
         /// Configuration of the core; `None` for the choice of whoever opens the simulation.
         config: Option<Config>,
+        /// Whether the core has runs, for a mesh that lives; `None` for the choice of whoever opens the simulation.
+        living: Option<bool>,
     },
     /// A board at a serial port.
     Serial(serial::Address),
@@ -113,7 +116,7 @@ impl DeviceAddress {
             "cpu" => Self::Cpu { threads: None },
             "model" => Self::Model { coord_bits: None, capacity: None },
             "clock" => Self::Clock { config: None },
-            "sim" => Self::Sim { config: None },
+            "sim" => Self::Sim { config: None, living: None },
             _ => {
                 let forms = "there are 'cpu', 'model', 'clock', 'sim', 'serial:PORT', such as serial:/dev/ttyUSB0, \
                              'udp:HOST', such as udp:192.168.1.50, and 'pcie:N', such as pcie:0";
@@ -132,8 +135,12 @@ impl DeviceAddress {
             (Self::Model { coord_bits, .. }, "coord-bits") => *coord_bits = Some(choice.number(ANY)?),
             (Self::Model { capacity, .. }, "capacity") => *capacity = Some(choice.number(ANY)?),
             (Self::Model { .. }, _) => return Err(choice.unknown(&["coord-bits", "capacity"])),
-            (Self::Clock { config } | Self::Sim { config }, "config") => *config = Some(config_named(choice.value)?),
-            (Self::Clock { .. } | Self::Sim { .. }, _) => return Err(choice.unknown(&["config"])),
+            (Self::Clock { config } | Self::Sim { config, .. }, "config") => {
+                *config = Some(config_named(choice.value)?)
+            }
+            (Self::Clock { .. }, _) => return Err(choice.unknown(&["config"])),
+            (Self::Sim { living, .. }, "living") => *living = Some(choice.yes()?),
+            (Self::Sim { .. }, _) => return Err(choice.unknown(&["config", "living"])),
             // `parse` has returned before this point: the parsers of these take their own choices.
             (Self::Serial(_) | Self::Udp(_) | Self::Pcie(_), _) => return Err(choice.unknown(&[])),
         }
@@ -170,7 +177,11 @@ impl fmt::Display for DeviceAddress {
                 add("coord-bits", coord_bits.map(|bits| bits.to_string()));
                 add("capacity", capacity.map(|points| points.to_string()));
             }
-            Self::Clock { config } | Self::Sim { config } => add("config", config.map(|config| config.name.to_owned())),
+            Self::Clock { config } => add("config", config.map(|config| config.name.to_owned())),
+            Self::Sim { config, living } => {
+                add("config", config.map(|config| config.name.to_owned()));
+                add("living", living.map(|is_living| if is_living { "yes" } else { "no" }.to_owned()));
+            }
             Self::Serial(address) => {
                 let usual = serial::Address::of_port("");
                 add("baud", (address.baud != usual.baud).then(|| address.baud.to_string()));
@@ -209,7 +220,9 @@ mod tests {
             ("cpu?threads=3", DeviceAddress::Cpu { threads: NonZeroU32::new(3) }),
             ("clock", DeviceAddress::Clock { config: None }),
             ("clock?config=full", DeviceAddress::Clock { config: Some(FULL) }),
-            ("sim?config=full", DeviceAddress::Sim { config: Some(FULL) }),
+            ("sim?config=full", DeviceAddress::Sim { config: Some(FULL), living: None }),
+            ("sim?living=no", DeviceAddress::Sim { config: None, living: Some(false) }),
+            ("sim?config=full&living=yes", DeviceAddress::Sim { config: Some(FULL), living: Some(true) }),
             ("serial:/dev/x", DeviceAddress::Serial(serial::Address::of_port("/dev/x"))),
             ("serial:COM3?baud=12000000&slow=40", DeviceAddress::Serial(serial)),
             ("udp:192.168.1.50", DeviceAddress::Udp(UdpAddress::of_host("192.168.1.50"))),
@@ -247,6 +260,9 @@ mod tests {
             "clock?config=huge",
             "clock?config",
             "clock?capacity=8",
+            "clock?living=yes",
+            "sim?living",
+            "sim?living=maybe",
             "cpu?threads=0",
             "cpu?threads=many",
             "cpu?contexts=2",

@@ -53,6 +53,16 @@ pub(crate) trait Backend {
         Err(Error::NoRuns { device: self.name() })
     }
 
+    /// Most words of payload of the answer to a run.
+    fn run_words(&self) -> usize {
+        usize::MAX
+    }
+
+    /// Number of commands that were sent again so far, and that the device may have carried out more than once.
+    fn repeats(&self) -> u64 {
+        0
+    }
+
     /// Turns a wrong answer into an error, after which nothing more is asked of the device.
     fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
         let _ = (opcode, fault);

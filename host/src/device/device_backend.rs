@@ -115,6 +115,14 @@ impl Backend for DeviceBackend {
         }
     }
 
+    fn run_words(&self) -> usize {
+        self.channel.capabilities().run_words
+    }
+
+    fn repeats(&self) -> u64 {
+        self.channel.repeats()
+    }
+
     fn distrust(&mut self, opcode: Opcode, fault: DeviceFault) -> Error {
         self.channel.distrust(opcode, fault)
     }

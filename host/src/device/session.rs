@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use incircle_protocol::{Identity, FEATURE_RUNS};
+use incircle_protocol::{Identity, RunKind};
 
 use super::backend::{Backend, JobLeft, Terms, Together};
 use super::lay::{lay, Asked};
@@ -226,10 +226,15 @@ impl<'d> Session<'d> {
         Ok(solutions.into_iter().flatten().collect())
     }
 
-    /// Whether the device can keep a mesh that lives. Of the devices of this library the back ends `model`, and
-    /// `clock` with one engine, can; on the processor use [`Triangulation`](crate::Triangulation).
+    /// Whether the device can keep a mesh that lives: it must answer questions about its mesh, and insert points at
+    /// vertices that the host names. Of the devices of this library the back ends `model`, and `clock` with one engine,
+    /// can, and of simulated cores those with runs; on the processor use [`Triangulation`](crate::Triangulation).
+    ///
+    /// A device that can do all this may still have no commands to delete and to move a vertex. Then every change of
+    /// this kind has the host make the mesh on the device anew before the next question, see [`LivingSession`].
     pub fn keeps_living_meshes(&self) -> bool {
-        self.identity.features & FEATURE_RUNS != 0
+        let needed = [RunKind::Locate, RunKind::Interpolate, RunKind::Nearest, RunKind::InsertAs];
+        needed.into_iter().all(|kind| self.identity.takes(kind))
     }
 
     /// Begins a mesh that lives on the device, without points. See [`LivingMesh`](crate::LivingMesh) for an example.

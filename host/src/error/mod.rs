@@ -168,7 +168,8 @@ pub enum Error {
     },
     /// The device cannot change a mesh that stands.
     #[error(
-        "{device} cannot keep a mesh that lives: use the back end model or clock, or a Triangulation, which is on the processor"
+        "{device} cannot keep a mesh that lives: use the back end model or clock, a core with runs, or a \
+         Triangulation, which is on the processor"
     )]
     NoRuns {
         /// Name of the device.

@@ -52,6 +52,18 @@ impl Choice<'_> {
         parsed.ok_or_else(|| format!("\"{key}\" must be a whole number from {least} to {most}, not \"{value}\""))
     }
 
+    /// Whether the value is `yes`, and not `no`.
+    ///
+    /// # Errors
+    /// A sentence that does not repeat the address, for any other value.
+    pub(crate) fn yes(self) -> Result<bool, String> {
+        match self.value {
+            "yes" => Ok(true),
+            "no" => Ok(false),
+            other => Err(format!("\"{}\" must be \"yes\" or \"no\", not \"{other}\"", self.key)),
+        }
+    }
+
     /// The sentence of an error for a key that is not one of `known`.
     pub(crate) fn unknown(self, known: &[&str]) -> String {
         let known: Vec<String> = known.iter().map(|key| format!("\"{key}\"")).collect();

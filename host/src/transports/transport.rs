@@ -74,6 +74,12 @@ pub trait Transport {
         Capabilities::default()
     }
 
+    /// Number of commands that were sent again so far, because their answers were lost on the way. The device may have
+    /// carried out such a command more than once. The default, 0, suits a transport that loses nothing.
+    fn repeats(&self) -> u64 {
+        0
+    }
+
     /// The clocks of the device; `None` where they are not counted.
     fn clocks(&self) -> Option<DeviceClocks> {
         None
@@ -116,6 +122,8 @@ pub struct Capabilities {
     /// not wait for the line. Jobs are put side by side only while their meshes fit, because a core inserts nothing
     /// while its answers wait.
     pub kept_words: usize,
+    /// Most words of payload of the answer to a run. Longer runs are sent in pieces.
+    pub run_words: usize,
     /// Speed of the transport.
     pub pace: Pace,
 }
@@ -128,6 +136,7 @@ impl Default for Capabilities {
             any_order: false,
             packs_records: true,
             kept_words: usize::MAX,
+            run_words: usize::MAX,
             pace: Pace::default(),
         }
     }

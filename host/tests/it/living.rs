@@ -1,9 +1,15 @@
 //! A mesh that lives on a device against [`Triangulation`], which brute force holds: the same answers and the same
 //! meshes after every command, on sets that are full of ties.
 
+use std::cell::Cell;
+use std::rc::Rc;
+use std::time::Instant;
+
 use incircle::living::{Error as Refusal, Location, Triangulation};
-use incircle::{Device, Error, ErrorKind, LivingMesh, LivingSession, Point};
-use incircle_protocol::Config;
+use incircle::transports::{AnswerHead, ClockTransport};
+use incircle::{Device, Error, ErrorKind, LivingMesh, LivingSession, Point, Transport, TransportError};
+use incircle_model::ChipModel;
+use incircle_protocol::{Command, Config, Opcode, SMALL};
 use incircle_testkit::SplitMix64;
 
 /// The places of a script: small lattices, lines, points of a circle.
@@ -187,6 +193,18 @@ fn core(number: usize) -> (Device, u32) {
     (Device::clock_model(config).expect("a core"), points)
 }
 
+/// A core of this configuration that has the runs of the hardware: it has no commands to delete and to move a vertex.
+fn without_deletions(config: Config) -> ClockTransport {
+    ClockTransport::around(ChipModel::new(config).expect("a core").with_questions(), config)
+}
+
+/// The model clock by clock for the script of this number, with the runs that the hardware has, and its capacity.
+fn hardware(number: usize) -> (Device, u32) {
+    let (points, contexts) = ([64, 16, 8, 256][number % 4], [16, 4, 1, 16, 7][number % 5]);
+    let config = Config { name: "test", points, ring: [32, 6, 12][number % 3], contexts, engines: 1 };
+    (Device::from_transport(Box::new(without_deletions(config))), points)
+}
+
 /// Runs scripts on devices, and returns how often the memory was full.
 fn run(device_of: fn(usize) -> (Device, u32), seed: u64, scripts: usize) -> u32 {
     let mut random = SplitMix64::new(seed);
@@ -246,6 +264,92 @@ fn hundreds_of_scripts_on_the_core_agree_with_the_host() {
 fn many_scripts_on_the_core_agree_with_the_host() {
     let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
     run(core, 254, scripts.unwrap_or(10_000));
+}
+
+#[test]
+fn hundreds_of_scripts_on_a_core_without_deletions_agree_with_the_host() {
+    let refused = run(hardware, 255, 300);
+    assert!(refused > 10, "the memory was full {refused} times");
+}
+
+/// `INCIRCLE_SCRIPTS` says how many scripts run.
+#[test]
+#[ignore = "takes as long as the variable INCIRCLE_SCRIPTS says"]
+fn many_scripts_on_a_core_without_deletions_agree_with_the_host() {
+    let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
+    run(hardware, 256, scripts.unwrap_or(10_000));
+}
+
+/// A transport that counts the commands `Clear` and `InsertAs`.
+struct Counted {
+    inner: ClockTransport,
+    seen: Rc<Cell<[usize; 2]>>,
+}
+
+impl Transport for Counted {
+    fn name(&self) -> String {
+        self.inner.name()
+    }
+
+    fn submit(&mut self, commands: &[Command<&[u32]>], deadline: Instant) -> Result<(), TransportError> {
+        let count = |opcode| commands.iter().filter(|command| command.opcode() == opcode).count();
+        let [clears, runs] = self.seen.get();
+        self.seen.set([clears + count(Opcode::Clear), runs + count(Opcode::InsertAs)]);
+        self.inner.submit(commands, deadline)
+    }
+
+    fn receive(
+        &mut self,
+        head: AnswerHead,
+        payload: &mut [u32],
+        deadline: Instant,
+    ) -> Result<AnswerHead, TransportError> {
+        self.inner.receive(head, payload, deadline)
+    }
+}
+
+/// Where a core has no deletions, the first question after changes makes the mesh anew, and insertions after it are
+/// made in place.
+#[test]
+fn a_core_without_deletions_makes_the_mesh_anew_once_for_many_changes() {
+    let seen = Rc::new(Cell::new([0; 2]));
+    let transport = Counted { inner: without_deletions(SMALL), seen: Rc::clone(&seen) };
+    let mut device = Device::from_transport(Box::new(transport));
+    let mut session = device.session().expect("a session");
+    assert!(session.keeps_living_meshes());
+    let mut mesh = session.living().expect("the core has enough runs");
+    let points: Vec<Point> = (0..100).map(|k| Point::new(k % 10, k / 10)).collect();
+    mesh.insert_all(&points).expect("room");
+    assert_eq!(seen.get(), [1, 0]);
+    for index in 0..40 {
+        mesh.delete(index).expect("a deletion");
+        mesh.move_to(99 - index, Point::new(20 + index, index * index)).expect("a move");
+        mesh.insert(Point::new(500, index)).expect("room");
+    }
+    assert_eq!(seen.get(), [1, 0], "no question came");
+    assert_eq!(mesh.nearest(Point::new(500, 3)).expect("an answer"), Some(103));
+    assert_eq!(mesh.locate(Point::new(500, 3)).expect("an answer"), Location::Vertex(103));
+    assert_eq!(seen.get(), [2, 0]);
+    mesh.insert(Point::new(600, 600)).expect("room");
+    mesh.insert_all(&[Point::new(700, 1), Point::new(800, 900)]).expect("room");
+    assert_eq!(mesh.nearest(Point::new(790, 900)).expect("an answer"), Some(142));
+    assert_eq!(seen.get(), [2, 2]);
+    mesh.delete_all(&[40, 41]).expect("deletions");
+    mesh.move_all(&[(42, Point::new(9, 9)), (43, Point::new(31, 32))]).expect("moves");
+    let mut host = Triangulation::from(points).expect("a triangulation");
+    for index in 0..40 {
+        host.delete(index).expect("a deletion");
+        host.move_to(99 - index, Point::new(20 + index, index * index)).expect("a move");
+        host.insert(Point::new(500, index)).expect("room");
+    }
+    for point in [[600, 600], [700, 1], [800, 900]] {
+        host.insert(Point::from(point)).expect("room");
+    }
+    let on_host: &mut dyn LivingMesh<Point> = &mut host;
+    on_host.delete_all(&[40, 41]).expect("deletions");
+    on_host.move_all(&[(42, Point::new(9, 9)), (43, Point::new(31, 32))]).expect("moves");
+    assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
+    assert_eq!(seen.get(), [3, 2]);
 }
 
 /// The hub of a wheel has more neighbours than the list of the device. The caller does not see that.

@@ -28,6 +28,7 @@ mod transports {
     mod serial {
         mod hostile;
         mod jobs;
+        mod living;
         #[cfg(unix)]
         mod port;
         mod sessions;

@@ -68,7 +68,8 @@ impl ChipModel {
         self
     }
 
-    /// The same chip with questions about a mesh that stands, and no other runs, if it is a single engine.
+    /// The same chip with the runs that the hardware has so far, if it is a single engine: `Locate`, `Interpolate`,
+    /// `Nearest` and `InsertAs`. Its identity offers these.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         if let [only] = &mut self.engines[..] {

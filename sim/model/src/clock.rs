@@ -163,8 +163,8 @@ impl ClockModel {
     /// A memory is read and written in a way that is undefined in silicon, which would be a fault of the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
-            let has_runs = self.living.is_some();
-            self.registers = Registers { has_runs, ..Registers::after_reset(self.config, self.engine) };
+            let features = self.registers.features;
+            self.registers = Registers { features, ..Registers::after_reset(self.config, self.engine) };
             if let Some(living) = &mut self.living {
                 living.reset();
             }

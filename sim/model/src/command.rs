@@ -123,11 +123,18 @@ impl CommandModel {
         self
     }
 
-    /// The same model with the commands for a mesh that stands, the runs, which its identity then offers. Cores do not
-    /// have them.
+    /// The same model with the commands for a mesh that stands, the runs, which its identity then offers.
     #[must_use]
     pub fn with_runs(mut self) -> Self {
         self.identity.features |= protocol::FEATURE_RUNS;
+        self
+    }
+
+    /// The same model with those runs that a core with runs has, and no others: `Locate`, `Interpolate`, `Nearest` and
+    /// `InsertAs`. Its identity offers these.
+    #[must_use]
+    pub fn with_questions(mut self) -> Self {
+        self.identity.features |= protocol::CORE_RUNS;
         self
     }
 
@@ -211,11 +218,8 @@ impl CommandModel {
         }
         self.finish_reading();
         let opcode = protocol::command_opcode(word);
-        let known = if self.identity.features & protocol::FEATURE_RUNS == 0 {
-            Opcode::of_every_device(opcode)
-        } else {
-            Opcode::from_u8(opcode)
-        };
+        let is_taken = |&known: &Opcode| RunKind::of(known).is_none_or(|kind| self.identity.takes(kind));
+        let known = Opcode::from_u8(opcode).filter(is_taken);
         match known {
             Some(Opcode::Hello) => {
                 let words = self.identity.to_words();

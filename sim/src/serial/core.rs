@@ -4,7 +4,7 @@ use incircle_model::serial::{Passed, WordDevice};
 use incircle_protocol::Config;
 use verilated::{Model, PortId};
 
-use crate::device::{description, CORE};
+use crate::device::{description, living_description, CORE};
 use crate::error::SimError;
 
 /// A Verilated core and its two streams.
@@ -22,9 +22,10 @@ pub(super) struct StreamCore {
 }
 
 impl StreamCore {
-    /// A core of this configuration, after its reset.
-    pub(super) fn new(config: Config) -> Result<Self, SimError> {
-        let model = Model::new(description(CORE, config)?);
+    /// A core of this configuration, with or without runs, after its reset.
+    pub(super) fn new(config: Config, has_runs: bool) -> Result<Self, SimError> {
+        let found = if has_runs { living_description(config)? } else { description(CORE, config)? };
+        let model = Model::new(found);
         let mut core = Self {
             reset: model.port("reset")?,
             command_valid: model.port("command_valid")?,

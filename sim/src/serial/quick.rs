@@ -4,7 +4,7 @@
 use std::collections::VecDeque;
 
 use incircle_model::serial::{core_identity, SerialModel};
-use incircle_protocol::{Config, LinkConfig, FIRST_RATE};
+use incircle_protocol::{Config, LinkConfig, CORE_RUNS, FIRST_RATE};
 
 use super::core::StreamCore;
 use super::uart::Symbol;
@@ -21,6 +21,7 @@ const TOLERANCE: u64 = 25;
 /// ends have different rates, no byte arrives unchanged.
 pub struct QuickBoard {
     config: Config,
+    has_runs: bool,
     link: LinkConfig,
     model: SerialModel<StreamCore>,
     clocks: u64,
@@ -39,10 +40,23 @@ impl QuickBoard {
     /// # Errors
     /// The errors of [`SimDevice::new`](crate::SimDevice::new).
     pub fn new(config: Config, link: LinkConfig) -> Result<Self, SimError> {
+        Self::of(config, false, link)
+    }
+
+    /// A board whose core of this configuration has runs.
+    ///
+    /// # Errors
+    /// The errors of [`SimDevice::living`](crate::SimDevice::living).
+    pub fn living(config: Config, link: LinkConfig) -> Result<Self, SimError> {
+        Self::of(config, true, link)
+    }
+
+    fn of(config: Config, has_runs: bool, link: LinkConfig) -> Result<Self, SimError> {
         Ok(Self {
             config,
+            has_runs,
             link,
-            model: powered(config, link)?,
+            model: powered(config, has_runs, link)?,
             clocks: 0,
             rate: FIRST_RATE,
             waiting: VecDeque::new(),
@@ -94,8 +108,10 @@ impl QuickBoard {
 }
 
 /// The software model of the serial link around a fresh core.
-fn powered(config: Config, link: LinkConfig) -> Result<SerialModel<StreamCore>, SimError> {
-    Ok(SerialModel::new(link, core_identity(config), StreamCore::new(config)?))
+fn powered(config: Config, has_runs: bool, link: LinkConfig) -> Result<SerialModel<StreamCore>, SimError> {
+    let mut identity = core_identity(config);
+    identity.features |= if has_runs { CORE_RUNS } else { 0 };
+    Ok(SerialModel::new(link, identity, StreamCore::new(config, has_runs)?))
 }
 
 impl Board for QuickBoard {
@@ -151,7 +167,7 @@ impl Board for QuickBoard {
 
     fn power_cycle(&mut self) {
         // The same call succeeded when the board was made, so it succeeds again.
-        if let Ok(model) = powered(self.config, self.link) {
+        if let Ok(model) = powered(self.config, self.has_runs, self.link) {
             self.model = model;
         }
         self.waiting.clear();

@@ -45,7 +45,8 @@ pub fn values(choice: &Choice, laid: &Laid<'_>, values: &[f64], places: &ValuePl
     if is_on_line(points) {
         return Err(Failure::input(NoTriangle.to_string()));
     }
-    let mut backend = backend::open_with_room(choice, Some(points.len()), None, None)?;
+    let choice = choice.clone().with_runs_for(points.len())?;
+    let mut backend = backend::open_with_room(&choice, Some(points.len()), None, None)?;
     let at: Vec<[u32; 2]> = at.iter().map(|&point| point.into()).collect();
     let mut found = Vec::with_capacity(places.len());
     let done = interrupt::working(|| {

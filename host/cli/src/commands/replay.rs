@@ -28,6 +28,8 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     let name = path::name(&arguments.script);
     let in_file = |failure: Failure| failure.in_file(&name);
     let script = source::read_script(&arguments.script, arguments.quiet)?;
+    // A device keeps no constraints: the processor takes the changes of a script with some, as for other devices.
+    let choice = if script.has_constraints() { choice } else { choice.with_runs_for(script.most_living)? };
     watch.ended("load");
     interrupt::check()?;
     let laid = lattice::lay(&script.places, None).map_err(in_file)?;
@@ -44,7 +46,6 @@ pub fn run(arguments: &ReplayArguments) -> Result<(), Failure> {
     let mut device = open(&choice, &numbers, script.most_living, arguments)?;
     watch.ended("open");
     let player = Player { script: &script, film: film.as_mut(), quiet: arguments.quiet };
-    // A device keeps no constraints: the processor takes the changes of a script with some, as for other devices.
     let keeps = |device| player::keeps_living_meshes(device, check_bits);
     let lives = !script.has_constraints() && device.as_mut().map_or(Ok(false), keeps)?;
     let played = match (&mut device, &laid.numbers) {
@@ -104,9 +105,8 @@ fn open(
     most_living: usize,
     arguments: &ReplayArguments,
 ) -> Result<Option<Backend>, Failure> {
-    // The model and the core of the back end clock keep the mesh throughout.
-    let keeps_mesh = matches!(choice.address, DeviceAddress::Model { .. } | DeviceAddress::Clock { .. });
-    let room = if keeps_mesh { most_living } else { choice.room_for(living) };
+    // A device with runs keeps the mesh throughout.
+    let room = if choice.has_runs() { most_living } else { choice.room_for(living) };
     let backend = backend::open_with_room(choice, Some(room), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
     Ok(Some(backend).filter(|backend| !backend.takes_all_numbers()))

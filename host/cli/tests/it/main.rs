@@ -12,6 +12,8 @@ mod backend {
     mod serial;
     #[cfg(feature = "sim")]
     mod sim;
+    #[cfg(feature = "sim")]
+    mod sim_living;
 }
 
 mod commands {

@@ -14,6 +14,9 @@ use crate::job::Options;
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
+/// Largest number of items of a run, so that a device is not without an answer for long.
+const MOST_ITEMS: usize = 1 << 16;
+
 /// A device that takes runs.
 pub(super) struct LivingDevice<'d> {
     backend: &'d mut dyn Backend,
@@ -39,6 +42,11 @@ impl<'d> LivingDevice<'d> {
 
     pub(super) fn name(&self) -> String {
         self.backend.name()
+    }
+
+    /// Whether the device takes runs of this kind.
+    pub(super) fn takes(&self, kind: RunKind) -> bool {
+        self.identity.takes(kind)
     }
 
     /// Makes the mesh of these points, which are different and begin with three that span a triangle. Their vertices
@@ -71,7 +79,13 @@ impl<'d> LivingDevice<'d> {
         Ok(parts.pop().unwrap_or((Outcome::Missing, Located::default())))
     }
 
-    /// Does a run of these items, and returns the answer to each in their order.
+    /// Most items of a run of this kind.
+    pub(super) fn most_items(&self, kind: RunKind) -> usize {
+        MOST_ITEMS.min(self.backend.run_words() / kind.part_words()).max(1)
+    }
+
+    /// Does a run of these items, and returns the answer to each in their order. A change that the device was asked for
+    /// twice counts as done if it was done the first time.
     pub(super) fn ask_all(&mut self, kind: RunKind, items: &[Item]) -> Result<Vec<Part>, Error> {
         let mut sent = Vec::with_capacity(items.len() * kind.item_words(self.layout));
         for &Item { vertex, point } in items {
@@ -81,13 +95,24 @@ impl<'d> LivingDevice<'d> {
             }
         }
         let mut words = Vec::new();
+        let repeats = self.backend.repeats();
         self.exchange(Command::run(kind, &sent, self.layout), items.len(), &mut words)?;
+        let was_repeated = self.backend.repeats() != repeats;
         let mut parts: Vec<Option<Part>> = vec![None; items.len()];
         for part in words.chunks(kind.part_words()) {
             let head = part.first().copied().unwrap_or(u32::MAX);
             let place = parts.get_mut(part_item(head) as usize).filter(|place| place.is_none());
             match (place, Outcome::from_u8(part_outcome(head))) {
-                (Some(place), Some(outcome)) => *place = Some((outcome, Located::from_words(&part[1..]))),
+                (Some(place), Some(outcome)) => {
+                    // The second time the vertex is there already, or gone.
+                    let outcome = match (kind, outcome) {
+                        (RunKind::InsertAs, Outcome::InUse) | (RunKind::Delete, Outcome::Missing) if was_repeated => {
+                            Outcome::Done
+                        }
+                        _ => outcome,
+                    };
+                    *place = Some((outcome, Located::from_words(&part[1..])));
+                }
                 _ => return Err(self.distrust(kind.opcode(), DeviceFault::Part { item: part_item(head), found: head })),
             }
         }

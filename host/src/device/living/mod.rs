@@ -1,9 +1,11 @@
 //! Meshes that live, on the host and on a device, behind one trait.
 //!
 //! [`LivingSession`] keeps the mesh on a device that takes runs, `runs` gathers items into runs, `names` knows the
-//! point of every index, `line` answers while all points lie on one line, and `exchange` speaks with the device.
+//! point of every index, `line` answers while all points lie on one line, `held` makes the mesh anew where the device
+//! cannot change it, and `exchange` speaks with the device.
 
 mod exchange;
+mod held;
 mod line;
 mod names;
 mod runs;

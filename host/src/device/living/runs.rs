@@ -8,15 +8,13 @@ use std::collections::HashSet;
 use incircle_protocol::{Outcome, RunKind};
 
 use super::exchange::{Item, Part};
+use super::names::Place;
 use super::session::LivingSession;
 use super::LivingMesh;
 use crate::error::Error;
 use incircle_geometry::living::Location;
 use incircle_geometry::order::hilbert;
 use incircle_geometry::Point;
-
-/// Largest number of items of a run, so that a device is not without an answer for long.
-const MOST_ITEMS: usize = 1 << 16;
 
 /// Items of a run that have not been sent.
 struct Pending {
@@ -59,7 +57,8 @@ impl LivingSession<'_> {
         let (items, places) = (std::mem::take(&mut pending.items), std::mem::take(&mut pending.places));
         let contexts = (self.choices.contexts as usize).max(1);
         let mut parts = Vec::with_capacity(items.len());
-        for (items, places) in items.chunks(MOST_ITEMS).zip(places.chunks(MOST_ITEMS)) {
+        let most = self.device.most_items(pending.kind);
+        for (items, places) in items.chunks(most).zip(places.chunks(most)) {
             let order = dealt(places, contexts);
             let run: Vec<Item> = order.iter().map(|&index| items[index as usize]).collect();
             let answers = self.device.ask_all(pending.kind, &run)?;
@@ -79,7 +78,7 @@ impl LivingSession<'_> {
 
     pub(super) fn locate_in_runs(&mut self, places: &[Point]) -> Result<Vec<Location>, Error> {
         places.iter().try_for_each(|&place| self.check_grid(place))?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return places.iter().map(|&place| self.locate(place)).collect();
         }
         let parts = self.ask_about(RunKind::Locate, places)?;
@@ -88,7 +87,7 @@ impl LivingSession<'_> {
 
     pub(super) fn nearest_in_runs(&mut self, places: &[Point]) -> Result<Vec<Option<u32>>, Error> {
         places.iter().try_for_each(|&place| self.check_grid(place))?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return places.iter().map(|&place| self.nearest(place)).collect();
         }
         let parts = self.ask_about(RunKind::Nearest, places)?;
@@ -124,19 +123,15 @@ impl LivingSession<'_> {
     }
 
     /// Sends the changes of a run. The host has taken note of them, so a vertex that the device refuses to change is
-    /// changed by making the mesh anew.
+    /// changed when the next question makes the mesh anew.
     fn make(&mut self, pending: &mut Pending) -> Result<(), Error> {
         let kind = pending.kind;
-        let mut is_refused = false;
         for (outcome, _) in self.send(pending)? {
             match (kind, outcome) {
                 (_, Outcome::Done) => {}
-                (RunKind::Delete | RunKind::Move, Outcome::Flat | Outcome::ManyNeighbors) => is_refused = true,
+                (RunKind::Delete | RunKind::Move, Outcome::Flat | Outcome::ManyNeighbors) => self.fall_behind(),
                 (_, other) => return Err(self.unexpected(kind, other)),
             }
-        }
-        if is_refused {
-            return self.load();
         }
         Ok(())
     }
@@ -177,11 +172,15 @@ impl LivingSession<'_> {
                     break;
                 }
             };
-            let alone = self.names.place(point).filter(|place| !place.is_shared()).map(|place| place.vertex);
-            if let Some(vertex) = alone.filter(|_| self.is_loaded) {
-                pending.push(Item { vertex, point }, point);
-                self.vertices[vertex as usize] = None;
-                self.free.push(vertex);
+            let is_shared = self.names.place(point).is_some_and(Place::is_shared);
+            match self.vertex_for(RunKind::Delete, point) {
+                _ if is_shared => {}
+                Some(vertex) => {
+                    pending.push(Item { vertex, point }, point);
+                    self.vertices[vertex as usize] = None;
+                    self.free.push(vertex);
+                }
+                None => self.fall_behind(),
             }
             self.names.take(index);
         }
@@ -199,8 +198,9 @@ impl LivingSession<'_> {
                 Ok(from) => from,
                 Err(error) => return self.make(&mut pending).and(Err(error)),
             };
-            let alone = self.names.place(from).filter(|place| !place.is_shared()).map(|place| place.vertex);
-            let is_plain = self.is_loaded && self.names.place(to).is_none();
+            let is_shared = self.names.place(from).is_some_and(Place::is_shared);
+            let alone = self.vertex_for(RunKind::Move, from).filter(|_| !is_shared);
+            let is_plain = self.names.place(to).is_none();
             let is_apart = !touched.contains(&from) && !touched.contains(&to);
             match alone.filter(|_| is_plain && is_apart) {
                 Some(vertex) => {

@@ -9,7 +9,6 @@ use super::names::Names;
 use super::LivingMesh;
 use crate::device::backend::Backend;
 use crate::error::{DeviceFault, Error};
-use crate::job::prepare::prepare;
 use incircle_geometry::living::Location;
 use incircle_geometry::{Mesh, Order, Point};
 
@@ -23,6 +22,17 @@ pub(crate) struct Choices {
     pub(crate) contexts: u32,
 }
 
+/// The mesh that a device has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Held {
+    /// None, because all points lie on one line. The host answers.
+    Nothing,
+    /// One that lacks changes, or none yet. The next question makes the mesh anew, once for all changes before it.
+    Older,
+    /// The mesh of the points.
+    Mesh,
+}
+
 /// A mesh that lives on a device, with the methods of [`LivingMesh`].
 ///
 /// [`Session::living`](crate::Session::living) makes one. The device changes its mesh in place: an insertion, a
@@ -33,7 +43,10 @@ pub(crate) struct Choices {
 ///   deletion or a move leaves all points on one line, the host takes over, and gives the points back to the device
 ///   when they span a triangle again.
 /// - **Many neighbours.** A device refuses to delete or move a vertex with more neighbours than its list holds, 32 in
-///   the standard cores and the model. The host then makes the mesh on the device anew, which takes O(n).
+///   the standard cores and the model. The next question, or a call of [`mesh`](LivingMesh::mesh), then makes the mesh
+///   on the device anew. That takes O(n), once for all changes since the mesh before.
+/// - **No deletions.** The core of the hardware has no commands yet that delete or move a vertex. There every deletion
+///   and every move is made like that of a vertex with many neighbours.
 /// - **Memory.** The device holds as many different places as its capacity. [`Error::MemoryFull`] says that there is no
 ///   room, and leaves the mesh as it was.
 /// - **Faults.** After an error of the link or a wrong answer, the mesh on the device is not known, and all further
@@ -46,15 +59,14 @@ pub struct LivingSession<'d> {
     pub(super) vertices: Vec<Option<Point>>,
     /// Vertices that are free, the last freed last.
     pub(super) free: Vec<u32>,
-    /// Whether the device has the mesh. If not, all points lie on one line.
-    pub(super) is_loaded: bool,
+    pub(super) held: Held,
 }
 
 impl<'d> LivingSession<'d> {
     pub(crate) fn new(backend: &'d mut dyn Backend, identity: Identity, choices: Choices) -> Self {
         let device = LivingDevice::new(backend, identity, choices.timeout);
         let (vertices, free) = (Vec::new(), Vec::new());
-        Self { device, choices, names: Names::default(), vertices, free, is_loaded: false }
+        Self { device, choices, names: Names::default(), vertices, free, held: Held::Nothing }
     }
 
     /// The vertices of the triangle, edge or vertex at a place, each with its weight there: the value at the place, by
@@ -80,7 +92,7 @@ impl<'d> LivingSession<'d> {
     /// Those of [`LivingMesh::locate`].
     pub fn weights(&mut self, place: Point) -> Result<Vec<(u32, u64)>, Error> {
         self.check_grid(place)?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return Ok(Vec::new());
         }
         let (outcome, located) = self.device.ask(RunKind::Interpolate, None, Some(place))?;
@@ -138,10 +150,12 @@ impl<'d> LivingSession<'d> {
 
     /// Puts an index at a place that has no point. There is room.
     fn add_place(&mut self, index: u32, point: Point) -> Result<(), Error> {
-        if !self.is_loaded {
-            let stays_flat = self.names.stays_flat_with(point);
+        if self.held != Held::Mesh {
+            if self.held == Held::Nothing && !self.names.stays_flat_with(point) {
+                self.held = Held::Older;
+            }
             self.names.put(index, point, 0);
-            return if stays_flat { Ok(()) } else { self.load() };
+            return Ok(());
         }
         let vertex = self.free.pop().unwrap_or(self.vertices.len() as u32);
         match self.device.ask(RunKind::InsertAs, Some(vertex), Some(point))?.0 {
@@ -158,9 +172,9 @@ impl<'d> LivingSession<'d> {
 
     /// Takes an index away from its place, where it is alone.
     fn take_place(&mut self, index: u32, point: Point) -> Result<(), Error> {
-        let vertex = self.names.place(point).map(|place| place.vertex).filter(|_| self.is_loaded);
-        let Some(vertex) = vertex else {
+        let Some(vertex) = self.vertex_for(RunKind::Delete, point) else {
             self.names.take(index);
+            self.fall_behind();
             return Ok(());
         };
         let outcome = self.device.ask(RunKind::Delete, Some(vertex), None)?.0;
@@ -173,7 +187,8 @@ impl<'d> LivingSession<'d> {
             }
             Outcome::Flat | Outcome::ManyNeighbors => {
                 self.names.take(index);
-                self.load()
+                self.fall_behind();
+                Ok(())
             }
             other => Err(self.unexpected(RunKind::Delete, other)),
         }
@@ -181,9 +196,9 @@ impl<'d> LivingSession<'d> {
 
     /// Moves an index that is alone at its place to another place that has no point.
     fn move_place(&mut self, index: u32, from: Point, to: Point) -> Result<(), Error> {
-        let vertex = self.names.place(from).map(|place| place.vertex).filter(|_| self.is_loaded);
-        let Some(vertex) = vertex else {
+        let Some(vertex) = self.vertex_for(RunKind::Move, from) else {
             self.names.take(index);
+            self.fall_behind();
             return self.add_place(index, to);
         };
         let outcome = self.device.ask(RunKind::Move, Some(vertex), Some(to))?.0;
@@ -193,29 +208,9 @@ impl<'d> LivingSession<'d> {
         self.names.take(index);
         self.names.put(index, to, vertex);
         self.vertices[vertex as usize] = Some(to);
-        if outcome == Outcome::Done {
-            return Ok(());
+        if outcome != Outcome::Done {
+            self.fall_behind();
         }
-        self.load()
-    }
-
-    /// Makes the mesh on the device anew, if the points span a triangle.
-    pub(super) fn load(&mut self) -> Result<(), Error> {
-        self.is_loaded = false;
-        self.vertices.clear();
-        self.free.clear();
-        let places: Vec<Point> = self.names.places().keys().copied().collect();
-        let prepared = prepare(&places, self.choices.order, self.choices.contexts);
-        if prepared.collinear {
-            return Ok(());
-        }
-        let points: Vec<Point> = prepared.order.iter().map(|&place| places[place as usize]).collect();
-        self.device.load(&points, self.choices.contexts)?;
-        for (vertex, &point) in (0..).zip(&points) {
-            self.names.set_vertex(point, vertex);
-        }
-        self.vertices = points.into_iter().map(Some).collect();
-        self.is_loaded = true;
         Ok(())
     }
 }
@@ -232,7 +227,7 @@ impl LivingMesh<Point> for LivingSession<'_> {
     }
 
     fn insert_all(&mut self, points: &[Point]) -> Result<(), Error> {
-        if self.is_loaded {
+        if self.held == Held::Mesh {
             return self.insert_in_runs(points);
         }
         // The device gets all points at once, up to one that is refused.
@@ -241,7 +236,8 @@ impl LivingMesh<Point> for LivingSession<'_> {
             self.names.put(index, point, 0);
             Ok(())
         });
-        self.load().and(refused)
+        self.held = Held::Older;
+        self.refresh().and(refused)
     }
 
     fn delete(&mut self, index: u32) -> Result<(), Error> {
@@ -290,7 +286,7 @@ impl LivingMesh<Point> for LivingSession<'_> {
 
     fn locate(&mut self, place: Point) -> Result<Location, Error> {
         self.check_grid(place)?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return Ok(self.names.locate_on_line(place));
         }
         let part = self.device.ask(RunKind::Locate, None, Some(place))?;
@@ -299,7 +295,7 @@ impl LivingMesh<Point> for LivingSession<'_> {
 
     fn nearest(&mut self, place: Point) -> Result<Option<u32>, Error> {
         self.check_grid(place)?;
-        if !self.is_loaded {
+        if !self.refresh()? {
             return Ok(self.names.nearest_of_all(place));
         }
         let part = self.device.ask(RunKind::Nearest, None, Some(place))?;
@@ -323,9 +319,10 @@ impl LivingMesh<Point> for LivingSession<'_> {
     }
 
     fn mesh(&mut self) -> Result<Mesh, Error> {
+        let has_mesh = self.refresh()?;
         let (points, duplicates) = self.names.ranked();
         let place_ranks = self.names.place_ranks();
-        if !self.is_loaded {
+        if !has_mesh {
             return Ok(Mesh::new(points, Vec::new(), place_ranks, duplicates));
         }
         let mut ranks = vec![None; self.vertices.len()];

@@ -16,6 +16,8 @@ use crate::transports::words::words_of;
 
 /// Most words of payload of a range: with the header they fill three frames.
 const RANGE_WORDS: usize = 3 * 256 - HEADER;
+/// Most words of payload of the answer to a run, which is asked for as a whole.
+pub(super) const RUN_WORDS: usize = RANGE_WORDS;
 /// Words of payload of the first ranges. Ranges grow on a clean line.
 const FIRST_RANGE_WORDS: usize = 192;
 /// Fewest words of payload of a range, to which noise makes them shrink.
@@ -42,8 +44,8 @@ struct Asked {
 /// The part of the command that a question is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Question {
-    /// The command as a whole.
-    Whole,
+    /// The command as a whole, with the most words of payload that its answer may have.
+    Whole { words: usize },
     /// A part of the command's range of records, with the length of its payload.
     Range { first: u32, count: u32, words: usize },
     /// Something that nobody waits for any more.
@@ -54,7 +56,9 @@ enum Question {
 #[derive(Debug)]
 struct Exchange {
     /// Command that brings the same answer again.
-    again: Command<[u32; 0]>,
+    again: Command<Vec<u32>>,
+    /// Most words of payload of the answer to the whole command.
+    most: usize,
     /// Answer so far: header, length, payload.
     answer: Vec<u32>,
     /// Ranges that are still to be asked for, each as its first record and its number of records.
@@ -123,7 +127,7 @@ impl Reader {
         let exchange = Exchange::of(command, self.layout)?;
         if exchange.todo.is_empty() {
             let end = sender.push_command(command);
-            self.asked.push_back(Asked::new(Question::Whole, end));
+            self.asked.push_back(Asked::new(Question::Whole { words: exchange.most }, end));
         }
         self.exchange = Some(exchange);
         self.ask_more(sender);
@@ -217,9 +221,9 @@ impl Reader {
         self.range = (self.range / 2).max(MIN_RANGE_WORDS);
         match asked.what {
             Question::Nothing => return,
-            Question::Whole => {
+            Question::Whole { .. } => {
                 let end = sender.push_command(&exchange.again);
-                self.asked.push_back(Asked::new(Question::Whole, end));
+                self.asked.push_back(Asked::new(Question::Whole { words: exchange.most }, end));
             }
             Question::Range { first, count, .. } => exchange.todo.push_front((first, count)),
         }
@@ -253,8 +257,7 @@ impl Asked {
             return Ok(false);
         }
         let most = match self.what {
-            Question::Range { words, .. } => HEADER + words,
-            Question::Whole => HEADER + LONGEST_WHOLE,
+            Question::Range { words, .. } | Question::Whole { words } => HEADER + words,
             // This was a range once, and its length is forgotten.
             Question::Nothing => HEADER + RANGE_WORDS,
         };
@@ -279,7 +282,7 @@ impl Asked {
             }
             let Some(exchange) = exchange.as_deref_mut() else { continue };
             let place = match (self.what, exchange.read_out) {
-                (Question::Whole, _) => place,
+                (Question::Whole { .. }, _) => place,
                 (Question::Range { first, .. }, Some(read_out)) if place >= HEADER => place + read_out.place(first),
                 _ => continue,
             };
@@ -304,9 +307,9 @@ impl Asked {
     }
 }
 
-/// Most words of payload of an answer to a whole command.
+/// Most words of payload of an answer to a whole command other than a run.
 const LONGEST_WHOLE: usize = LATENCY_BUCKETS;
-// The answers to all commands but the ranges must fit.
+// The answers to all commands but ranges and runs must fit.
 const _: () =
     assert!(COUNTER_WORDS <= LONGEST_WHOLE && IDENTITY_WORDS <= LONGEST_WHOLE && INSERT_REPORT_WORDS <= LONGEST_WHOLE);
 
@@ -316,29 +319,36 @@ impl Exchange {
             Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
                 return Err(SerialFault::Command("the points of this command are laid out for another device"));
             }
-            // A question is sent again if its answer is lost, and would change the mesh twice.
-            Command::Run { .. } => return Err(SerialFault::Command("the serial link takes no runs")),
+            Command::Run { .. } if command.points().len() as u64 != command.point_words(layout) => {
+                return Err(SerialFault::Command("the items of this command are laid out for another device"));
+            }
+            Command::Run { .. } if command.payload_words(layout) > RUN_WORDS as u64 => {
+                return Err(SerialFault::Command("the answer to this run is longer than the serial link takes"));
+            }
+            // A question may be asked again. A change that was made is made no second time: its outcome says so.
+            Command::Run { .. } => command.bare().map(|()| command.points().to_vec()),
             // Inserting no points brings the report of the points before them once more.
-            Command::Insert { .. } => Command::Insert { count: 0, points: [] },
-            command => command.map(|()| []),
+            Command::Insert { .. } => Command::Insert { count: 0, points: Vec::new() },
+            command => command.map(|()| Vec::new()),
         };
-        let whole =
-            Self { again, answer: Vec::new(), todo: VecDeque::new(), read_out: None, missing: 0, is_done: false };
+        let most = if matches!(again, Command::Run { .. }) { RUN_WORDS } else { LONGEST_WHOLE };
+        let (answer, todo) = (Vec::new(), VecDeque::new());
+        let whole = Self { again, most, answer, todo, read_out: None, missing: 0, is_done: false };
         match ReadOut::of(command.bare(), layout) {
             Some(read_out) => whole.in_ranges(read_out, command.payload_words(layout)),
-            None => Ok(Self { answer: vec![0; HEADER + LONGEST_WHOLE], ..whole }),
+            None => Ok(Self { answer: vec![0; HEADER + most], ..whole }),
         }
     }
 
     /// Prepares to ask for the answer in ranges of these records.
     fn in_ranges(self, read_out: ReadOut, payload: u64) -> Result<Self, SerialFault> {
         const NO_ROOM: SerialFault = SerialFault::Command("there is no memory for an answer of this length");
+        let RecordRange { first, count } = read_out.range();
+        first.checked_add(count).ok_or(SerialFault::Command("the range goes beyond the last record number"))?;
         let words = usize::try_from(payload).ok().and_then(|payload| payload.checked_add(HEADER)).ok_or(NO_ROOM)?;
         let mut answer = Vec::new();
         answer.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
         answer.resize(words, 0);
-        let RecordRange { first, count } = read_out.range();
-        first.checked_add(count).ok_or(SerialFault::Command("the range goes beyond the last record number"))?;
         let todo = VecDeque::from([(first, count)]);
         Ok(Self { answer, todo, read_out: Some(read_out), missing: count, ..self })
     }
@@ -348,7 +358,7 @@ impl Exchange {
         let [header, length] = asked.header;
         match asked.what {
             Question::Nothing => false,
-            Question::Whole => {
+            Question::Whole { .. } => {
                 self.answer.truncate(HEADER + length as usize);
                 self.is_done = true;
                 true

@@ -8,6 +8,7 @@ use super::address::Address;
 use super::fault::SerialFault;
 use super::port::Port;
 use super::protocol::{Params, SerialProtocol, Statistics};
+use super::reader::RUN_WORDS;
 use crate::error::{Error, TransportError};
 use crate::limit::Limit;
 use crate::transports::transport::{
@@ -237,7 +238,11 @@ impl Transport for SerialTransport {
     fn capabilities(&self) -> Capabilities {
         let words = self.protocol.rate() / WORD_BITS / self.slow;
         let pace = Pace { slow: self.slow, words_per_second: Some(words.max(1)) };
-        Capabilities { any_order: true, pace, ..Capabilities::default() }
+        Capabilities { any_order: true, run_words: RUN_WORDS, pace, ..Capabilities::default() }
+    }
+
+    fn repeats(&self) -> u64 {
+        self.protocol.statistics().answers_repeated
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 
 use incircle_model::CommandModel;
+use incircle_protocol::{CORE_RUNS, FEATURES_SHIFT, FEATURE_RUNS, FEATURE_SHORT_IDS};
 
 pub const CLOCK: u32 = 125_000_000;
 pub const CAPACITY: u32 = 8192;
@@ -75,6 +76,16 @@ pub fn greeting(fifo: u32) -> [u32; 13] {
     [0x696e_436c, 1 << 16, CLOCK, fifo, CLOCK / 8, 2000, 0x696e_4369, 2 << 16, 3 << 8, 16, CAPACITY, 1 << 8 | 1, ring]
 }
 
+/// The core of a board with these runs.
+fn core(runs: u32) -> CommandModel {
+    let core = CommandModel::new(16, CAPACITY, 32).expect("a model");
+    match runs {
+        FEATURE_RUNS => core.with_runs(),
+        CORE_RUNS => core.with_questions(),
+        _ => core,
+    }
+}
+
 /// A board with its end of the serial link.
 pub struct Board {
     pub greeting: [u32; 13],
@@ -90,6 +101,8 @@ pub struct Board {
     pub overflows: usize,
     /// Bits that are flipped in the check sums of payload and answers.
     pub lies: [u32; 2],
+    /// The runs of the core: none, those of [`CORE_RUNS`], or with [`FEATURE_RUNS`] all.
+    runs: u32,
     core: CommandModel,
     fifo: VecDeque<u8>,
     input: Vec<u8>,
@@ -102,6 +115,8 @@ pub struct Board {
     /// Frames that are due, in the order `Hello`, `Opened`, `Closed`, `NoSession`, `Ack`, `Nak`.
     due: [bool; 6],
     new_rate: Option<u32>,
+    /// Words of an answer that the core has not given to its end.
+    coming: Vec<u32>,
     /// Answers that are not sent to their end.
     answer: VecDeque<Vec<u32>>,
     /// Words of the first answer that are sent.
@@ -128,7 +143,8 @@ impl Board {
             taken: 0,
             overflows: 0,
             lies: [0, 0],
-            core: CommandModel::new(16, CAPACITY, 32).expect("a model"),
+            runs: 0,
+            core: core(0),
             fifo: VecDeque::new(),
             input: Vec::new(),
             expected: 0,
@@ -139,11 +155,18 @@ impl Board {
             bad_rate: false,
             due: [false; 6],
             new_rate: None,
+            coming: Vec::new(),
             answer: VecDeque::new(),
             out: 0,
             heard: Duration::ZERO,
             ate: Duration::ZERO,
         }
+    }
+
+    /// The same board with these runs, [`CORE_RUNS`] or [`FEATURE_RUNS`].
+    pub fn with_runs(mut self, runs: u32) -> Self {
+        self.greeting[12] = (FEATURE_SHORT_IDS | runs) << FEATURES_SHIFT | 32;
+        Self { runs, core: core(runs), ..self }
     }
 
     /// Resets the board.
@@ -156,8 +179,9 @@ impl Board {
     }
 
     fn forget(&mut self) {
-        self.core = CommandModel::new(16, CAPACITY, 32).expect("a model");
+        self.core = core(self.runs);
         self.fifo.clear();
+        self.coming.clear();
         self.answer.clear();
         (self.expected, self.answers, self.digest, self.out) = (0, 0, 0, 0);
         (self.has_nacked, self.bad_rate) = (false, false);
@@ -263,15 +287,13 @@ impl Board {
         let eaten: Vec<u8> = self.fifo.drain(..bytes).collect();
         let words: Vec<u32> = eaten.chunks(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
         self.core.send(&words);
-        loop {
-            let mut header = [0; 2];
-            if self.core.receive(&mut header) == 0 {
-                break;
+        // The core gives parts of an answer to a run while it still takes items.
+        let mut word = [0];
+        while self.core.receive(&mut word) == 1 {
+            self.coming.push(word[0]);
+            if self.coming.len() >= 2 && self.coming.len() == 2 + self.coming[1] as usize {
+                self.answer.push_back(std::mem::take(&mut self.coming));
             }
-            let mut answer = header.to_vec();
-            answer.resize(2 + header[1] as usize, 0);
-            assert_eq!(self.core.receive(&mut answer[2..]), header[1] as usize);
-            self.answer.push_back(answer);
         }
     }
 

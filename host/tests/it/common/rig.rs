@@ -260,6 +260,10 @@ impl Transport for Rig {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities::default()
+        Capabilities { run_words: 766, ..Capabilities::default() }
+    }
+
+    fn repeats(&self) -> u64 {
+        self.protocol.statistics().answers_repeated
     }
 }

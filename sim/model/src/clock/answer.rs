@@ -93,7 +93,7 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
             contexts: config.contexts,
             engines: config.engines,
             ring_capacity: config.ring,
-            features: protocol::FEATURE_SHORT_IDS | if was.has_runs { protocol::FEATURE_RUNS } else { 0 },
+            features: was.features,
         }
         .to_words()[index],
         Some(Opcode::Insert) => InsertReport {

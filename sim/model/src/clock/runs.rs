@@ -8,14 +8,14 @@ use super::ports::{Inputs, Outputs};
 use super::questions::{Events, ItemEnd, Launch, Questions, Signals as QuestionSignals};
 use super::wires::Wires;
 use super::ClockModel;
-use incircle_protocol::{command_opcode, Opcode, RunKind};
+use incircle_protocol::{command_opcode, Opcode, RunKind, CORE_RUNS, FEATURE_RUNS};
 
 impl ClockModel {
     /// The same core with the commands for a mesh that stands, the runs, which its identity then offers.
     #[must_use]
     pub fn with_runs(mut self) -> Self {
         self.living = Some(LivingEngine::new(self.config, None));
-        self.registers.has_runs = true;
+        self.registers.features |= FEATURE_RUNS;
         self
     }
 
@@ -23,14 +23,15 @@ impl ClockModel {
     #[must_use]
     pub fn with_runs_without(mut self, rule: LivingDefect) -> Self {
         self.living = Some(LivingEngine::new(self.config, Some(rule)));
-        self.registers.has_runs = true;
+        self.registers.features |= FEATURE_RUNS;
         self
     }
 
-    /// The same core with the runs that the hardware has so far: `Locate`, `Interpolate`, `Nearest` and `InsertAs`. Its
-    /// identity does not offer runs.
+    /// The same core with the runs that the hardware has so far, which its identity then offers: `Locate`,
+    /// `Interpolate`, `Nearest` and `InsertAs`.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
+        self.registers.features |= CORE_RUNS;
         self.questions = Some(Questions::new(self.config));
         self
     }

@@ -23,7 +23,7 @@ use super::starter::{Start, Starter};
 use super::watchdog::{FinishedPoints, Watchdog};
 use super::ClockModel;
 use crate::predicate::Point;
-use incircle_protocol::Config;
+use incircle_protocol::{Config, FEATURE_SHORT_IDS};
 
 /// The registers of the core, except those of the visit pipeline, the ring reader and the release.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,13 +47,13 @@ pub(super) struct Registers {
     /// The bundle that enters the queue in this clock.
     pub push: Option<Bundle>,
     pub write: Write,
-    /// Whether the core has the commands for a mesh that stands; a constant.
-    pub has_runs: bool,
+    /// The features of the identity; a constant.
+    pub features: u32,
 }
 
 impl Registers {
     pub(super) fn after_reset(config: Config, engine: u8) -> Self {
-        let mut registers = Self::default();
+        let mut registers = Self { features: FEATURE_SHORT_IDS, ..Self::default() };
         registers.responder.engine = engine;
         registers.command.contexts = config.contexts;
         registers.command.jobs = 1;

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::service::{self, end};
 use incircle_model::serial::{FromDevice, FromHost};
-use incircle_protocol::{DeviceFrame, HostFrame};
+use incircle_protocol::{DeviceFrame, Greeting, HostFrame, RunKind};
 
 /// A folder of the test's own.
 fn folder(name: &str) -> PathBuf {
@@ -58,6 +58,22 @@ fn serves(name: &str, signal: &str, arguments: &[&str]) {
 #[test]
 fn a_quick_board_greets_and_ends_on_sigterm() {
     serves("quick", "-TERM", &["--fast", "--slow", "4"]);
+}
+
+#[test]
+fn a_quick_board_with_runs_says_so_in_its_greeting() {
+    let folder = folder("living");
+    let link = folder.join("board");
+    let (child, line) = start(&link, &["--fast", "--living"]);
+    assert!(line.contains("simulated with runs and without the bits of its line"), "{line}");
+    let body: Vec<u32> =
+        greet(&link).body.chunks(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
+    let greeting = Greeting::from_words(body.try_into().expect("the words of a greeting"));
+    assert!(greeting.identity.takes(RunKind::InsertAs) && !greeting.identity.takes(RunKind::Delete));
+    end(child, "-TERM");
+    let refused = program(&link, &["--living"]).output().unwrap();
+    assert_eq!(refused.status.code(), Some(2), "a board at its pins has no runs");
+    fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

@@ -18,6 +18,7 @@ enum Step {
     Insert(Vec<u32>),
     Ask(RunKind, Vec<u32>),
     Counters,
+    Hello,
 }
 
 impl Step {
@@ -29,6 +30,7 @@ impl Step {
             Self::Insert(points) => with_items(Opcode::Insert, points),
             Self::Ask(kind, places) => with_items(kind.opcode(), places),
             Self::Counters => vec![command_word(Opcode::Counters)],
+            Self::Hello => vec![command_word(Opcode::Hello)],
         }
     }
 }
@@ -92,7 +94,7 @@ fn run(
     let mut model = CommandModel::new(CORE_COORD_BITS, config.points, config.ring)
         .unwrap_or_else(|error| panic!("{error}"))
         .with_contexts(config.contexts)
-        .with_runs();
+        .with_questions();
     let mut commands = Vec::new();
     for step in steps {
         commands.extend(step.words());
@@ -128,6 +130,8 @@ fn run(
                 arrived.clear();
                 assert_eq!(answer, expected);
             }
+            // The identity says which runs the core has.
+            Step::Hello => assert_eq!(answer, expected),
         }
     }
     assert_eq!(place, answers.len());
@@ -155,6 +159,9 @@ fn script(random: &mut SplitMix64, config: Config, points: u64, places: u64) -> 
         }
         if random.once_in(4) {
             steps.push(Step::Counters);
+        }
+        if random.once_in(8) {
+            steps.push(Step::Hello);
         }
         let kind = KINDS[random.below(3) as usize];
         steps.push(Step::Ask(kind, words(random, places, side.min((1 << 16) - 2) + 2)));

@@ -4,7 +4,7 @@
 use incircle_hdl::export;
 use incircle_hdl::predicate::VisitPredicates;
 use incircle_hdl::top::CORE_NAME;
-use incircle_protocol::{Config, NAMED, SMALL};
+use incircle_protocol::{Config, FULL, NAMED, SMALL};
 use incircle_testbench::gate::{self, Cells};
 
 /// The small core by Yosys 0.23, as `docs/core.md` has it.
@@ -28,6 +28,14 @@ fn every_named_core_passes_lint_and_synthesis() {
             let passed = gate::pass(&core(config, with_probe), CORE_NAME);
             assert!(passed.is_ok(), "{} with probe {with_probe}: {}", config.name, passed.unwrap_err());
         }
+    }
+}
+
+#[test]
+fn cores_with_runs_pass_lint_and_synthesis() {
+    for config in [SMALL, FULL] {
+        let passed = gate::pass(&export::core_with_questions(config, false).unwrap(), CORE_NAME);
+        assert!(passed.is_ok(), "{} with runs: {}", config.name, passed.unwrap_err());
     }
 }
 

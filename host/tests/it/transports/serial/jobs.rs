@@ -393,7 +393,11 @@ fn a_pause_between_jobs_is_no_matter_and_one_within_a_job_is_told() {
 fn what_the_link_cannot_carry_is_refused() {
     let range = |first, count| RecordRange { first, count };
     for (command, sentence) in [
-        (Command::Run { kind: RunKind::Locate, count: 0, items: &[][..] }, "takes no runs"),
+        (
+            Command::Run { kind: RunKind::Nearest, count: 384, items: &[7; 384][..] },
+            "longer than the serial link takes",
+        ),
+        (Command::Run { kind: RunKind::InsertAs, count: 1, items: &[7][..] }, "laid out for another device"),
         (Command::Read(range(u32::MAX, 1)), "goes beyond the last record number"),
         (Command::Triangles(range(u32::MAX, 1)), "goes beyond the last record number"),
         (Command::ShortTriangles(range(1, u32::MAX), ShortIds::Ten), "goes beyond the last record number"),

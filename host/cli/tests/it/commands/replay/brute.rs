@@ -103,15 +103,15 @@ fn script(random: &mut SplitMix64, side: u32) -> (String, String, Brute) {
     (script, answers, brute)
 }
 
-#[test]
-fn random_scripts_give_the_mesh_and_the_answers_of_brute_force() {
+/// Replays random scripts on one of these back ends after another.
+fn replay_scripts(backends: &[&str], scripts: usize) {
     let scratch = Scratch::new();
     let mut random = SplitMix64::new(24);
-    for number in 0..120 {
+    for number in 0..scripts {
         let side = [2, 3, 5, 40][number % 4];
         let (text, answers, brute) = script(&mut random, side);
         scratch.write("s.txt", &text);
-        let backend = if number % 8 < 4 { "cpu" } else { "model" };
+        let backend = backends[number / 4 % backends.len()];
         scratch.run(&format!("replay s.txt -o m.csv --answers a.txt --backend {backend} -q")).ok();
         assert_eq!(scratch.read("a.txt"), answers, "{text}");
         let triangles = brute.triangles();
@@ -119,6 +119,17 @@ fn random_scripts_give_the_mesh_and_the_answers_of_brute_force() {
         assert_eq!(scratch.read("m.csv"), expected, "{text}");
         scratch.run("verify s.txt m.csv --script -q").ok();
     }
+}
+
+#[test]
+fn random_scripts_give_the_mesh_and_the_answers_of_brute_force() {
+    replay_scripts(&["cpu", "model"], 120);
+}
+
+#[test]
+#[cfg(feature = "sim")]
+fn random_scripts_on_a_simulated_core_give_the_mesh_and_the_answers_of_brute_force() {
+    replay_scripts(&["sim?living=yes"], 24);
 }
 
 /// The mesh has the bytes of `triangulate` for the living points, if none was deleted.
