@@ -41,7 +41,7 @@ fn main() {
             let verilog = exported(&name, export::core(config, false));
             enumerations.extend(states::named_states(&verilog));
             let source = ModelSource::new(&name, TOP, verilog.as_str()).fast_clocks(true);
-            // What a model needs for waveforms costs a third of its speed, also while it writes none.
+            // What a model needs for waveforms costs up to a fifth of its speed, also while it writes none.
             let traced = ModelSource::new(&format!("traced_{name}"), TOP, verilog.as_str()).fast_clocks(true);
             builder = builder.model(source.optimisation(Optimisation::Fast)).model(traced.trace(true));
         }

@@ -48,7 +48,7 @@ module incircle_example;
         send(32'h07000000, 0);                              // Triangles, from record 0 on
         send(2 * POINTS - 2, 0);                            // all records, then a word of padding
         #100000 $display("no answer");
-        $finish;
+        $stop;
     end
 
     // The third answer has the triangles: a beat of header and length, then three ids of 16 bits for each record.

@@ -34,7 +34,7 @@ class Incircle(LiteXModule):
         """
         file = VERILOG / f"incircle_{configuration}_stream.v"
         if not file.is_file():
-            raise ValueError(f"{file} is missing: choose small, full, dual or quad")
+            raise ValueError(f"{file} is missing: choose small, full, dual or quad, and keep this file in its checkout")
         platform.add_source(str(file))
 
         self.sink = stream.Endpoint([("data", BEAT_BITS)])

@@ -70,8 +70,8 @@ impl SimDevice {
         Self::of(description(CORE, config)?)
     }
 
-    /// A simulated core of this configuration that can write waveforms. It runs at about two thirds of the speed, also
-    /// while it writes none.
+    /// A simulated core of this configuration that can write waveforms. It is slower by up to a fifth, also while it
+    /// writes none.
     ///
     /// # Errors
     /// As [`SimDevice::new`].
@@ -226,7 +226,8 @@ impl SimDevice {
         match trace.watch.take(word) {
             Moment::Begins => trace.fault = self.model.trace_to(&trace.path).err(),
             Moment::Ends => {
-                trace.fault = self.model.trace_flush().err();
+                // A waveform that could not begin stays an error.
+                trace.fault = trace.fault.take().or(self.model.trace_flush().err());
                 self.model.trace_close();
                 self.job_trace = self.job_trace.take().filter(|trace| trace.fault.is_some());
             }

@@ -43,7 +43,7 @@ DESIGNS = [
 
 
 def run(design: Design, verilog: Path, out: Path) -> int:
-    """Builds and tests a design, prints its rows, and returns the number of tests that failed."""
+    """Builds and tests a design, prints its rows, and returns the number of tests that failed or did not run."""
     runner = get_runner("icarus")
     runner.build(
         sources=[verilog / f"{design.name}.v", *(HERE / file for file in design.board)],
@@ -80,8 +80,11 @@ def run(design: Design, verilog: Path, out: Path) -> int:
         verdict = "FAILED" if is_failed else "passed"
         seconds = float(case.get("time", 0))
         print(f"| {design.name} | {case.get('name')} | {verdict} | {simulated:.0f} | {seconds:.0f} |")
+    missing = sorted(set(design.tests) - {case.get("name") for case in cases})
+    for name in missing:
+        print(f"| {design.name} | {name} | DID NOT RUN | | |")
     sys.stdout.flush()
-    return failed if cases else 1
+    return failed + len(missing) if cases else 1
 
 
 def main(verilog: Path, out: Path) -> int:

@@ -1,4 +1,4 @@
-"""Tests of a core behind its UDP link, with a PHY of others at its pins: no frame hangs the device."""
+"""Tests of a core behind its UDP link, with the PHY model of cocotbext-eth at its pins: no Ethernet frame hangs the device."""
 
 import struct
 import zlib
@@ -90,6 +90,9 @@ async def damaged_frames(dut: Any) -> None:
     for _ in range(12):
         await board.say(POLL, damage=board.random.randrange(64 * 8))
         assert await board.is_silent(3)
+    # The same frame without damage is answered within that time.
+    await board.say(POLL)
+    assert not await board.is_silent(3)
     points = board.points(min(POINTS, 8))
     assert await board.job(points) == delaunay(points)
 

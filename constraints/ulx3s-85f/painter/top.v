@@ -1,4 +1,4 @@
-// The painter on a ULX3S: the pins, the two clocks, and the painter itself. See README.md.
+// The painter on a ULX3S: the pins, the two clocks, and the painter itself. See ../README.md.
 //
 // The PLL multiplies the oscillator's 25 MHz to 500 MHz and divides that by 4 for the video output, 125 MHz, and by 6
 // for everything else, 83.3 MHz.
@@ -33,7 +33,8 @@ module ulx3s_85f_painter (
         .PHASELOADREG(1'b0), .PLLWAKESYNC(1'b0), .ENCLKOP(1'b0)
     );
 
-    // Reset ends 255 clocks after the lock, which like the button is asynchronous. Configuration sets these to 0.
+    // The reset ends about 260 clocks after the PLL has locked and the button is released. Both are asynchronous, and
+    // pass the two flip-flops `calm`. Configuration sets these registers to 0.
     reg [1:0] calm = 2'b00;
     reg [7:0] waited = 8'd0;
     reg released = 1'b0;

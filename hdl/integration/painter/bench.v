@@ -1,6 +1,7 @@
 // Simulates the painter, reads the bits on the lanes of its video output as a screen does, and writes each picture to a
-// file: picture_0.ppm is dark, picture_1.ppm is the first mesh. docs/core-in-your-design.md has the command.
-// `+pictures=N` writes pictures 0 to N, 1 if it is left out.
+// file: picture_0.ppm has value 0 everywhere, picture_1.ppm is the first mesh. docs/core-in-your-design.md has the command.
+// `+pictures=N` writes pictures 0 to N, 1 if it is left out. `$stop` ends the program with an error if a picture is not
+// whole, if the core refuses a command, or if no screen comes.
 // SPDX-License-Identifier: MIT OR Apache-2.0
 `timescale 1ns / 1ps
 `default_nettype none
@@ -27,6 +28,21 @@ module painter_bench;
         repeat (8) @(negedge clock);
         reset = 0;
     end
+
+    // A screen takes 16.8 ms. A bench that counts no new one for 100 ms would wait for ever.
+    reg [31:0] screens, screens_before;
+    initial begin
+        {screens, screens_before} = 0;
+        forever begin
+            repeat (100) #1000000;
+            if (screens == screens_before) stops;
+            screens_before = screens;
+        end
+    end
+    task stops; begin
+        $display("no screen has come for 100 ms of simulated time");
+        $stop;
+    end endtask
 
     // The byte of a symbol: the encoder's steps, backwards.
     function [7:0] decoded(input [9:0] symbol);
@@ -61,10 +77,17 @@ module painter_bench;
         if (file != 0) begin
             $fclose(file);
             $display("%0s has %0d pixels", name, pixels);
-            if (pixels != 640 * 480) $display("the screen should have %0d pixels", 640 * 480);
+            if (pixels != 640 * 480) begin
+                $display("the screen should have %0d pixels", 640 * 480);
+                $stop;
+            end
             picture = picture + 1;
         end
-        if (has_failed) $display("the core has refused a command");
+        if (has_failed) begin
+            $display("the core has refused a command");
+            $stop;
+        end
+        screens = screens + 1;
         if (picture > last) $finish;
         else begin
             $sformat(name, "picture_%0d.ppm", picture);

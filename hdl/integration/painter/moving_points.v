@@ -67,7 +67,7 @@ module moving_points (
         endcase
     endfunction
 
-    // The next place of a point that was read. A corner lies outside already, so it stays, with its step of 0.
+    // The next place of a point that was read. The corners have a step of 0, so they stay.
     wire signed [2:0] step_x = was[27:25];
     wire signed [2:0] step_y = was[30:28];
     wire signed [10:0] next_x = $signed({2'b00, was[8:0]}) + step_x;

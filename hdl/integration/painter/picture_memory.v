@@ -31,7 +31,7 @@ module picture_memory (
     input wire [15:0] show_at,
     output reg [7:0] show_value
 );
-    // Configuration sets these to 0: the memory holds two dark pictures, and picture 0 is shown.
+    // Configuration sets these to 0: both pictures have value 0 everywhere, and picture 0 is shown.
     reg painted = 1'b0;
     reg shown = 1'b0;
     (* ASYNC_REG = "TRUE" *) reg [1:0] painted_there = 2'b00;

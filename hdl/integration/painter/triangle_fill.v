@@ -1,5 +1,5 @@
-// Paints triangles: for each pixel of a triangle, the value that lies between the values of its three corners, exact
-// and rounded down.
+// Paints triangles: each pixel of a triangle gets the value that is interpolated linearly between its three corners,
+// exact and rounded down.
 //
 // | port | direction | bits | meaning |
 // |---|---|---|---|

@@ -45,8 +45,8 @@ pub struct BusSide<const W: usize, const K: usize, const E: usize> {
     reply_seen: Synchroniser<Bit>,
     beat_seen: Synchroniser<Bit>,
     busy_seen: Synchroniser<Bit>,
-    /// The flag from the core's side comes late, so the link counts as busy for two more clocks: a beat that has just
-    /// left one side must not seem to be on neither.
+    /// The flag from the core's side comes late. Two more clocks of busy cover a beat that has left one side and is not
+    /// yet seen on the other.
     busy_before: DFF<Bit>,
     busy_earlier: DFF<Bit>,
     reset: Signal<Local, Bit>,

@@ -59,6 +59,11 @@ impl ResetRequest {
     pub const MOST_STILL: u32 = 256;
 }
 
+const _: () = assert!(
+    ResetRequest::LEAST_CLOCKS == 31 + 1 && ResetRequest::MOST_STILL == 255 + 1,
+    "the kernel has these as literals"
+);
+
 impl Logic for ResetRequest {
     #[hdl_gen]
     fn update(&mut self) {

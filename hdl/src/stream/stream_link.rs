@@ -40,8 +40,8 @@ pub struct StreamLink<const W: usize, const K: usize, const E: usize> {
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
-    /// The device holds words of commands, or owes answers, that do not show in the streams: so only a chip of several
-    /// engines says.
+    /// High while a chip of several engines holds words of commands, or owes answers, that the two streams do not show.
+    /// A core of one engine has 0 here.
     pub device_busy: Signal<In, Bit>,
     bus: BusSide<W, K, E>,
     commands: AsyncFifo<POINTER_BITS, W>,
@@ -86,7 +86,7 @@ impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, 
         self.core.device_busy.next = self.device_busy.val();
 
         // Only the next four signals and the two FIFOs cross between the clocks;
-        // `constraints/crossings` holds the list.
+        // `protocol/STREAM.md` lists them.
         self.core.request.next = self.bus.request.val();
         self.bus.reply.next = self.core.reply.val();
         self.bus.core_beat.next = self.core.core_beat.val();

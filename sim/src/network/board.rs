@@ -54,7 +54,6 @@ fn description(config: Config) -> Result<&'static ModelDescription, SimError> {
     found.ok_or_else(|| SimError::NoBoard { name: config.name, built: built() })
 }
 
-/// The pins.
 #[derive(Clone, Copy, Debug)]
 struct Ports {
     port_clock: PortId,

@@ -6,7 +6,7 @@ use incircle_model::serial::core_identity;
 use incircle_model::stream::{BusError, Given};
 use incircle_protocol::{
     answer_header, signed_header, Command, CommandReader, Config, Identity, InsertReport, Layout, Opcode, Status,
-    StreamRegister, STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
+    StreamRegister, CONTROL_RESET, STREAM_FIFO_BEATS, STREAM_STATUS_RUNS, STREAM_VERSION,
 };
 
 use super::beats::Beats;
@@ -170,8 +170,8 @@ impl Beats for NullDevice {
         })
     }
 
-    fn write(&mut self, offset: u32, _: u32) -> Result<(), BusError> {
-        if offset == StreamRegister::Control.offset() {
+    fn write(&mut self, offset: u32, value: u32) -> Result<(), BusError> {
+        if offset == StreamRegister::Control.offset() && value & CONTROL_RESET != 0 {
             self.answers.clear();
             (self.commands, self.left, self.points) = (CommandReader::default(), None, 0);
         }

@@ -264,7 +264,8 @@ impl Beats for PinCard {
     }
 
     fn write(&mut self, offset: u32, value: u32) -> Result<(), BusError> {
-        if offset == StreamRegister::Control.offset() && value & CONTROL_RESET != 0 {
+        let resets = offset == StreamRegister::Control.offset() && value & CONTROL_RESET != 0;
+        if resets {
             self.drop_commands();
         }
         let [valid, ready, address] = self.ports.write_address;
@@ -276,7 +277,7 @@ impl Beats for PinCard {
         self.access(&[[valid, ready], [data_valid, data_ready]], [has_come, take])?;
         let response = self.model.get(response);
         self.take_answer(take);
-        if offset == StreamRegister::Control.offset() {
+        if resets {
             self.from_card.clear();
         }
         (response == OKAY).then_some(()).ok_or(BusError)

@@ -55,7 +55,7 @@ pub enum NetworkError {
     Socket {
         /// Address to listen at.
         listen: SocketAddrV4,
-        /// The reason.
+        /// Error of the system.
         source: io::Error,
     },
     /// The system refuses to set up the socket or to receive.

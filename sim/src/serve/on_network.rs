@@ -12,7 +12,7 @@ use crate::network::NetworkBoard;
 
 /// Clock of the core that the greeting of the software model names.
 const CLOCK_HZ: u32 = 120_000_000;
-/// Bytes of its FIFO.
+/// Bytes of the FIFO that the greeting of the software model names.
 const FIFO_BYTES: u32 = 16_384;
 /// Number of clocks of the core between two looks at its answers.
 const SLICE: u64 = 4096;

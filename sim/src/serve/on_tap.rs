@@ -37,7 +37,7 @@ pub enum TapError {
     Open {
         /// Name of the interface.
         name: String,
-        /// The reason.
+        /// Error of the system.
         source: io::Error,
     },
     /// The TAP device fails while it is open.

@@ -39,14 +39,23 @@ pub enum LayoutError {
         /// Path of the file.
         path: PathBuf,
     },
+    /// The waveform is that of another design.
+    #[error("{path} is not the waveform of a core: it has no signal {COMMAND}", path = path.display())]
+    NoCore {
+        /// Path of the file.
+        path: PathBuf,
+    },
 }
+
+/// A signal that every core has.
+const COMMAND: &str = "TOP.command_valid";
 
 /// Writes the layout of a waveform of a core: `NAME.gtkw` beside `NAME.vcd`, and a file `NAME.ENUMERATION.txt` with the
 /// names of the states of each enumeration. Files of these names are replaced. Returns what was written, the layout
 /// first. Open it with `gtkwave NAME.gtkw`.
 ///
 /// # Errors
-/// [`LayoutError`]: the file is no waveform, or a file cannot be read or written.
+/// [`LayoutError`]: the file is no waveform of a core, or a file cannot be read or written.
 pub fn write_layout(waveform: impl AsRef<Path>) -> Result<Vec<PathBuf>, LayoutError> {
     let waveform = waveform.as_ref();
     let at = |path: &Path| {
@@ -56,6 +65,9 @@ pub fn write_layout(waveform: impl AsRef<Path>) -> Result<Vec<PathBuf>, LayoutEr
     let mut file = File::open(waveform).map_err(at(waveform))?;
     let signals = header::signals(BufReader::new(&file)).map_err(at(waveform))?;
     let signals = signals.ok_or_else(|| LayoutError::NoWaveform { path: waveform.to_owned() })?;
+    if !signals.iter().any(|signal| signal.full_name() == COMMAND) {
+        return Err(LayoutError::NoCore { path: waveform.to_owned() });
+    }
     let times = times(&mut file).map_err(at(waveform))?;
     let mut written = Vec::new();
     for (path, text) in layout::files(waveform, &signals, &named_state::named_states(), times) {

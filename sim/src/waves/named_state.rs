@@ -16,7 +16,7 @@ pub(super) fn named_states() -> Vec<NamedState> {
     include_str!(concat!(env!("OUT_DIR"), "/states.txt")).lines().filter_map(named_state).collect()
 }
 
-/// Reads a line of the build script, which says its form.
+/// Parses a line of `states.txt`; `sim/build/states.rs` describes its form.
 fn named_state(line: &'static str) -> Option<NamedState> {
     let mut words = line.split(' ');
     let (path, signal, enumeration) = (words.next()?, words.next()?, words.next()?);

@@ -82,11 +82,15 @@ fn the_waveform_shows_the_chosen_job_alone() {
 }
 
 #[test]
-fn a_file_that_is_no_waveform_gets_no_layout() {
+fn a_file_that_is_no_waveform_of_a_core_gets_no_layout() {
     let file = scratch("no_waveform").join("text.vcd");
     fs::write(&file, "$scope module TOP $end\n").unwrap();
     let error = incircle_sim::waves::write_layout(&file).unwrap_err().to_string();
     assert!(error.contains("is no VCD waveform"), "{error}");
+    let other = "$scope module TOP $end\n$var wire 1 ! clock $end\n$upscope $end\n$enddefinitions $end\n#0\n0!\n";
+    fs::write(&file, other).unwrap();
+    let error = incircle_sim::waves::write_layout(&file).unwrap_err().to_string();
+    assert!(error.contains("it has no signal TOP.command_valid"), "{error}");
     let error = incircle_sim::waves::write_layout(file.with_extension("missing")).unwrap_err().to_string();
     assert!(error.contains("cannot read"), "{error}");
 }

@@ -56,8 +56,8 @@ fn advance(points: &mut [Moving]) {
     }
 }
 
-/// Twice the area of the triangle.
-fn area(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
+/// Twice the area of the triangle, positive if its corners stand counter-clockwise.
+fn orient2d(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
@@ -75,12 +75,12 @@ fn values(points: &[Moving]) -> Vec<i64> {
         for (place, value) in values.iter_mut().enumerate() {
             let pixel = [place as i64 % WIDTH, place as i64 / WIDTH];
             let moved = [pixel[0] * FINE + 1000, pixel[1] * FINE + 1];
-            let sides = [0, 1, 2].map(|edge| area(fine[edge], fine[(edge + 1) % 3], moved));
+            let sides = [0, 1, 2].map(|edge| orient2d(fine[edge], fine[(edge + 1) % 3], moved));
             assert!(!sides.contains(&0), "{pixel:?} was moved off every edge");
             if sides.iter().all(|side| *side > 0) {
-                let weights = [area(b, c, pixel), area(c, a, pixel), area(a, b, pixel)];
+                let weights = [orient2d(b, c, pixel), orient2d(c, a, pixel), orient2d(a, b, pixel)];
                 let sum: i64 = (0..3).map(|corner| weights[corner] * corners[corner].value).sum();
-                assert_eq!(value.replace(sum / area(a, b, c)), None, "two triangles have {pixel:?}");
+                assert_eq!(value.replace(sum / orient2d(a, b, c)), None, "two triangles have {pixel:?}");
             }
         }
     }
@@ -149,11 +149,11 @@ fn every_pixel_is_that_of_the_mesh_of_the_cpu() {
     verilator.args(["--top-module", "painter_bench", "--Mdir"]).arg(folder.join("obj_dir"));
     run(verilator.args(sources()).arg(file("hdl/integration/painter/bench.v")));
     let printed = run(Command::new(folder.join("obj_dir/Vpainter_bench")).arg("+pictures=2").current_dir(&folder));
-    assert!(!printed.contains("refused") && !printed.contains("should"), "{printed}");
+    assert!(printed.contains("picture_2.ppm has 307200 pixels"), "{printed}");
 
     // Configuration clears the memory of the picture, so the first screen shows value 0 everywhere.
-    let dark = vec![0; (WIDTH * HEIGHT) as usize];
-    assert!(numbers(&folder.join("picture_0.ppm")) == screen(&dark), "picture 0");
+    let zeros = vec![0; (WIDTH * HEIGHT) as usize];
+    assert!(numbers(&folder.join("picture_0.ppm")) == screen(&zeros), "picture 0");
     let mut points = first_points();
     for picture in 1..=2 {
         let found = numbers(&folder.join(format!("picture_{picture}.ppm")));

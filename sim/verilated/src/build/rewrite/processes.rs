@@ -19,7 +19,7 @@ struct Statement<'a> {
     reads: Vec<&'a str>,
 }
 
-/// The change of the depth of `begin` and `case` by a line.
+/// What a line does to the nesting of `begin` and `case`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     Nothing,
