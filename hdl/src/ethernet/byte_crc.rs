@@ -4,6 +4,15 @@
 //!
 //! Latency: 1 clock from a byte to the state.
 //!
+//! The lowest six bits of the state over the bytes 49, 50 and 51:
+//! ```text
+//! clock             0  1  2  3  4  5  6
+//! sets            /^^\_________________
+//! takes           ___/^^^^^\__/^^\_____
+//! byte_data         . 49 50  . 51  .  .
+//! state[5:0]        . 63  8 50 50 45 45
+//! ```
+//!
 //! Source: polynomial 04C11DB7, reflected, as `serial/crc32.rs`, which takes a bit a clock in a quarter of the logic.
 //! The state is linear: a byte of eight bits adds one constant for each bit that is 1. The register holds the inverse
 //! of the state, because a register of an FPGA begins with 0, and needs a LUT a bit to be set to 1 later.

@@ -1,8 +1,32 @@
 //! Says what each byte of a received frame means, by its place, and which byte a frame for this device has there, so
 //! that the blocks behind it compare without looking places up.
 //!
-//! Latency: 1 clock. What `MacIn` gives passes through unchanged beside the roles.
+//! 1. What `MacIn` gives passes through unchanged beside the roles. What it gives in a clock of `reset` does not come
+//!    out, but for `is_sound`.
+//! 2. The roles of a place are those of all kinds of frames together, because the block does not know which kind the
+//!    frame is. All places from 63 on have the same roles.
+//! 3. `wanted`, `second` and `broadcast` hold the bytes that a frame for this device has at the place. They mean nothing
+//!    where no role compares the byte with them.
 //!
+//! Latency: 1 clock.
+//!
+//! The last three bytes of the destination of a datagram, and a byte of its port. The device is 10.7.0.2 in the network
+//! with the broadcast address 10.7.0.99:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7
+//! begins          /^^\____________________
+//! byte_valid      ___/^^^^^\__/^^^^^\_____
+//! place             . 31 32  . 33 34  .  .
+//! byte_data         .  7  0  .  2 99  .  .
+//! ends            __________________/^^\__
+//! frame_begins    ___/^^\_________________
+//! head_valid      ______/^^^^^\__/^^^^^\__
+//! head.data         .  .  7  0  .  2 99  .
+//! tests_address     .  ./^^^^^  ./^^\__  .
+//! head.wanted       .  .  7  0  .  2  .  .
+//! head.broadcast    .  .  7  0  . 99  .  .
+//! frame_ends      _____________________/^^
+//! ```
 //! Source: the layouts of Ethernet II, IPv4 without options (RFC 791), UDP (RFC 768), ICMP echo (RFC 792) and ARP (RFC
 //! 826), as one table of 64 places; the last row is for all places from 63 on.
 

@@ -3,9 +3,24 @@
 //! 1. A datagram is whole if the length in the header of IPv4 is 28 or more, and as many bytes have come, and the four
 //!    of the check sum of the frame. More bytes may stand between both, the padding of a short frame.
 //! 2. `udp_is_right` demands that the length of UDP agrees with that of IPv4, and that the check sum is right or 0.
-//! 3. The state is final a clock after the last byte of the frame.
+//! 3. The state is final a clock after the last byte of the frame. `udp_is_right` means something only if the datagram
+//!    is whole.
+//! 4. `has_more` says for a byte behind the header of UDP whether it belongs to the datagram. It means nothing if the
+//!    length of IPv4 is below 28.
 //!
 //! Latency: 1 clock from a byte to `has_more` for the byte behind it.
+//!
+//! Bytes 16 to 18, which hold the length 30 of IPv4, and the bytes from 38 on: the length 10 of UDP, no check sum, two
+//! bytes of payload, and the four of the check sum of the frame:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9 10 11 12 13 14 15
+//! begins          /^^\____________________________________________
+//! head_valid      ___/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
+//! head.data         .  0 30  9  0 10  0  0  9  9  9  9  9  9  .  .
+//! has_more          .  .  .  .  .  .  .  ./^^^^^\______________  .
+//! udp_is_right      .  .  .  .  .  .  .  .  .  .  .  .  .  ./^^^^^
+//! is_whole          .  .  .  .  .  .  .  .__________________/^^^^^
+//! ```
 //!
 //! Source: RFC 768 and 791. The check sum of UDP covers a copy of the addresses, 17, and the length of UDP once more.
 //! The length of IPv4, which is 20 larger, stands in for the second length; the sum begins at 17 - 20 = -3.

@@ -9,7 +9,25 @@
 //! 4. If the FIFO is full, the datagram loses the rest of its bytes and does not count. Its end waits for room, and
 //!    what comes before there is room is lost as a whole.
 //!
+//! 5. What comes between a reset and the next frame that begins does not pass.
+//!
 //! Latency: none from a byte to its entry; 1 clock from the end of a frame to the entry that ends it.
+//!
+//! A byte of the sender, one that does not count, the one byte of the payload, and a byte behind it. The end waits for
+//! room:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9
+//! begins          /^^\__________________________
+//! head_valid      ___/^^^^^^^^\__/^^\___________
+//! is_peer           ./^^\_____  .___  .  .  .  .
+//! is_payload        .______/^^  ./^^  .  .  .  .
+//! has_more          ./^^^^^^^^  .___  .  .  .  .
+//! ends            __________________/^^\________
+//! is_full         __________________/^^^^^\_____
+//! push            ___/^^\__/^^\________/^^^^^\__
+//! entry[8]          .___  .___  .  .  ./^^^^^  .
+//! entry[7:0]        . 25  . 70  .  .  .  1  1  .
+//! ```
 
 use super::types::{DatagramState, HeadByte, Kinds, Roles};
 use crate::prelude::*;

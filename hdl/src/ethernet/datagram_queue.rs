@@ -8,7 +8,7 @@
 //!    that has not ended.
 //! 3. While `holds` is high, `length` and the bytes of the oldest datagram stay. `lets_go` at an edge frees its place;
 //!    it may be high only while `holds` is.
-//! 4. Both resets are held together, at least for three clocks of either.
+//! 4. Both resets are held together, at least for four clocks of either.
 //!
 //! Two of the longest datagrams and two of the shortest fit if the short ones begin before the second long one: a
 //! datagram begins only when there is room for the longest. So a short one between long ones, such as a receipt between
@@ -17,6 +17,20 @@
 //! Latency: 2 clocks from `read_index` to `read_data`; 3 clocks of the reader from the last byte to `holds`, perhaps
 //! one more; 2 clocks of the writer from the last byte to `byte_ready` for the next datagram if there is room; 5 of the
 //! writer from `lets_go` to `byte_ready`, perhaps one more.
+//!
+//! A datagram of three bytes, with both clocks equal:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9 10 11
+//! byte_valid      /^^^^^^^^\__________________________
+//! byte_ready      /^^^^^^^^\__/^^^^^^^^^^^^^^^^^^^^^^^
+//! byte_data        50 51 52  .  .  .  .  .  .  .  .  .
+//! byte_is_last    ______/^^\__________________________
+//! holds           _______________/^^^^^^^^^^^\________
+//! length            .  .  .  .  .  3  3  3  3  .  .  .
+//! read_index        .  .  .  .  .  0  1  2  .  .  .  .
+//! read_data         .  .  .  .  .  .  . 50 51 52  .  .
+//! lets_go         ________________________/^^\________
+//! ```
 //!
 //! Source: each side has a flag for each of the four places of datagrams that changes when the place is filled or
 //! freed, and sees the other's flags through a synchroniser. A place is filled while they differ. Flags, the bytes in

@@ -7,6 +7,17 @@
 //!
 //! Latency: 21 clocks from `holds` to `waits`; 4 clocks from `begins` to the first byte.
 //!
+//! The last clock before `waits`, the first three bytes, and the last six of a datagram with a payload of two bytes. The
+//! clocks between are left out:
+//! ```text
+//! holds           /^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\___________
+//! waits           ___/^^\______________________________________
+//! begins          ___/^^\______________________________________
+//! byte_data         .  .  .  .  . 40 41 42  0 10  0  0 71 72  .
+//! lets_go         ______________________________/^^\___________
+//! byte_is_last    _______________________________________/^^\__
+//! ```
+//!
 //! Source: RFC 768, 791, 6864. The block runs over the header of IPv4 twice: first for its check sum, which stands
 //! before the addresses that it covers, then to send it. The first run takes 20 clocks, and `MacOut` needs as many for
 //! check sum and gap of the frame before.

@@ -8,6 +8,18 @@
 //!    value; the reserved bit must be 0.
 //!
 //! Latency: 1 clock from a byte to the kinds.
+//!
+//! A frame to all ones, then the type of IPv4, the protocol UDP, and a port that is not the device's (other bytes left
+//! out):
+//! ```text
+//! clock             0  1  2  3  4  5  6  7
+//! begins          /^^\____________________
+//! head_valid      ___/^^^^^^^^^^^^^^\_____
+//! is_to_all         .___/^^^^^^^^^^^^^^^^^
+//! is_arp            ./^^^^^^^^\___________
+//! is_echo           ./^^\_________________
+//! is_udp            ./^^^^^^^^^^^^^^\_____
+//! ```
 
 use super::types::{Byte, HeadByte, Kinds, Roles};
 use crate::prelude::*;

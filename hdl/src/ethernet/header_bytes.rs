@@ -1,8 +1,21 @@
 //! Chooses a byte of a frame to send among constants, the device's addresses, lengths, the check sum and the datagram.
 //!
-//! 1. While `sum_is_open` is high, the bytes of the check sum are 0, as the sum itself demands.
+//! 1. `row.source` says where the byte comes from, as [`HeaderRow`](super::types::HeaderRow) lists it. Lengths go out
+//!    high byte first; the 11 bits of a length have 5 zeros before them.
+//! 2. The check sum is the complement of `sum`, high byte for the literal 0 and low byte for 1. While `sum_is_open` is
+//!    high, its bytes are 0, as the sum itself demands.
 //!
-//! Latency: 1 clock from `row` to the byte.
+//! Latency: 1 clock from `row` and the other inputs to the byte.
+//!
+//! A byte of each source, with port 12,345 (30 39 hexadecimal), lengths 21e and 20a, and the sum f5f0:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9
+//! source            0  1  2  3  4  5  6  7  7  .
+//! literal          69 10  .  .  .  .  .  0  1  .
+//! datagram_byte    80 81 82 83 84 85 86 87 88  .
+//! sum_is_open     ________________________/^^\__
+//! byte_data         . 69 48 82  2 30  2 10 10  0
+//! ```
 
 use super::own_bytes::OwnBytes;
 use super::types::{Byte, HeaderRow, Place, Station};

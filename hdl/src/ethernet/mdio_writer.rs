@@ -9,6 +9,15 @@
 //!
 //! Latency: 64 bits of 64 clocks for each write.
 //!
+//! The last two bits of a preamble, 01 for the start, 01 for a write, and the first bit of the address 5. A column is 16
+//! clocks:
+//! ```text
+//! mdc             ______/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^
+//! mdio_out        /^^^^^^^^^^^^^^^^^^^^^^^\___________/^^^^^^^^^^^\___________/^^^^^^^^^^^\___________
+//! mdio_drives     /^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! is_done         ____________________________________________________________________________________
+//! ```
+//!
 //! Source: IEEE 802.3, clause 22.2.4.5: 32 ones, 01 start, 01 write, address of the PHY, register, 10, and 16 bits of
 //! data, each highest bit first.
 

@@ -5,6 +5,16 @@
 //!
 //! Latency: 2 clocks from the last byte to the sum, if no byte follows; the last carry is added in the second one.
 //!
+//! The word 9 is added to 65,532. The sum is 6 because of the carry:
+//! ```text
+//! clock             0  1  2  3  4  5
+//! sets            /^^\______________
+//! takes           ___/^^^^^\________
+//! is_low            .___/^^  .  .  .
+//! byte_data         .  0  9  .  .  .
+//! sum[5:0]          . 60 60  5  6  6
+//! ```
+//!
 //! Source: RFC 1071. The carry of a word is added with the next one, as the lowest bit of one adder of 18 bits.
 
 use super::types::Byte;

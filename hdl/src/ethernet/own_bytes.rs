@@ -1,7 +1,15 @@
-//! A byte of the device's addresses, by its index: 0 to 5 Ethernet address, 6 to 9 IPv4 address, 10 and 11 UDP port, 12
-//! to 15 broadcast address.
+//! Gives a byte of the device's addresses, by its index.
+//!
+//! 1. Indices 0 to 5 are the Ethernet address, 6 to 9 the IPv4 address, 10 and 11 the UDP port, and 12 to 15 the
+//!    broadcast address. The first byte on the wire has the lowest index.
 //!
 //! Latency: none (combinational). Where the addresses are constants, synthesis makes a table of 16 rows of it.
+//!
+//! Bytes of the addresses 20:21:22:23:24:25, 26.27.28.29, port 30 and 31, broadcast 32.33.34.35 (all decimal):
+//! ```text
+//! index             0  1  5  6  9 10 11 12 15
+//! byte_data        20 21 25 26 29 30 31 32 35
+//! ```
 
 use super::types::{Byte, Station};
 use crate::prelude::*;

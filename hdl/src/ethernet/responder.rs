@@ -10,6 +10,17 @@
 //!
 //! Latency: 4 clocks from `begins` to the first byte.
 //!
+//! The last byte of an ARP request of 40:41:42:43:44:45 (decimal), the first four bytes of the answer, and the last two,
+//! which are padding. The clocks between are left out:
+//! ```text
+//! head_valid      /^^\_____________________________________________________
+//! asks_address    ___/^^\__________________________________________________
+//! waits           ______/^^^^^\____________________________________________
+//! begins          _________/^^\____________________________________________
+//! byte_data         .  .  .  .  .  .  . 40 41 42 43  0  0  .  .  .  .  .  .
+//! byte_is_last    ____________________________________/^^\_________________
+//! ```
+//!
 //! Source: RFC 826 and 792; RFC 1624 for the check sum. The check sum of the header of IPv4 stays, because swapped
 //! words have the same sum.
 

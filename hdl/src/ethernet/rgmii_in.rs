@@ -7,6 +7,16 @@
 //!
 //! Latency: the byte whose first half is on the pins at an edge is given behind the next edge.
 //!
+//! The bytes 35 and 52, then an error without a byte. A column shows the pins before an edge, and the rest behind it:
+//! ```text
+//! clock           /^^\__/^^\__/^^\__/^^\__/^^\__/^^\__/^^\__/^^\__/^^\__
+//! control         ____________/^^^^^^^^^^^\__/^^\_______________________
+//! pins              0  0  0  0  3  2  4  3  0  0  0  0  0  0  0  0  0  0
+//! data_valid      __________________/^^^^^^^^^^^\_______________________
+//! data              .  .  .  .  .  . 35 35 52 52  .  .  .  .  .  .  .  .
+//! data_error      ______________________________/^^^^^\_________________
+//! ```
+//!
 //! Source: RGMII 1.3 and 2.0; Lattice, ECP5 High-Speed I/O Interface, IDDRX1F and DELAYG. Without `INCIRCLE_ECP5` the
 //! Verilog has plain registers at both edges.
 

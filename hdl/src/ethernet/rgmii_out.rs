@@ -8,6 +8,15 @@
 //!
 //! Latency: a byte that is valid before an edge is on the pins behind the next edge.
 //!
+//! The bytes 35 and 52, in two columns a clock:
+//! ```text
+//! data_valid      ______/^^^^^^^^^^^\_________________
+//! data              .  . 35 35 52 52  .  .  .  .  .  .
+//! clock_pin       /^^\__/^^\__/^^\__/^^\__/^^\__/^^\__
+//! control         ____________/^^^^^^^^^^^\___________
+//! pins              .  .  .  .  3  2  4  3  .  .  .  .
+//! ```
+//!
 //! Source: RGMII 1.3 and 2.0; Lattice, ECP5 High-Speed I/O Interface, ODDRX1F and DELAYG. Without `INCIRCLE_ECP5` the
 //! Verilog has plain registers, and a choice by the level of the clock.
 

@@ -1,6 +1,25 @@
 //! Lets answers and datagrams share one sender of frames: whichever waits, and in turn if both do.
 //!
-//! Latency: none.
+//! 1. `begins` may be high only while `waits` is. It begins a frame of the side that waits. If both wait, it begins one
+//!    of the side that did not begin last.
+//! 2. From the clock behind `begins` until the next one, the bytes are those of the side that began.
+//! 3. The block has no reset. Until the first frame has begun, it is open whose turn it is, and the bytes mean nothing.
+//!
+//! Latency: none (combinational).
+//!
+//! An answer, then a datagram because the answer before had its turn, then the answer that waited meanwhile:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9
+//! answer_waits    /^^\_____/^^^^^^^^^^^^^^\_____
+//! datagram_waits  ______/^^^^^^^^\______________
+//! begins          /^^\________/^^\_____/^^\_____
+//! answer_begins   /^^\_________________/^^\_____
+//! datagram_begins ____________/^^\______________
+//! answer_data       . 11 12 13 14 15 16 17 18 19
+//! datagram_data     . 51 52 53 54 55 56 57 58 59
+//! byte_data         . 11 12 13 14 55 56 57 18 19
+//! byte_is_last      .______/^^\_____/^^\________
+//! ```
 
 use super::types::Byte;
 use crate::prelude::*;

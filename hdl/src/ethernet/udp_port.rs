@@ -6,7 +6,7 @@
 //!    [`DatagramQueue`](super::DatagramQueue) describes them.
 //! 2. What is not for this device, or not sound, has no effect on anything that comes later.
 //! 3. If the reader is slower than the wire, datagrams are lost as a whole. The FIFO holds 2,050 entries.
-//! 4. Both resets are held together, at least for three clocks of either.
+//! 4. Both resets are held together, at least for four clocks of either.
 //!
 //! Latency: datagrams of 1,472 bytes go out one in 1,538 clocks of the port, if the writer is as fast. The first byte
 //! of a datagram is on the pins about 40 clocks after its last byte was taken.

@@ -1,9 +1,25 @@
 //! The bytes of a datagram to the host, chosen by part and index, and the greeting, which is a table of constants.
 //!
-//! 1. The check sum and the digest of an answer, parts 5 and 7, come from
-//!    [`DatagramSums`](super::DatagramSums), one clock later.
+//! 1. Part 0 has the receiver's addresses at indices 0 to 11 and the session at 20 to 27, both from `address_byte`, and
+//!    `header_byte` between them.
+//! 2. Numbers go out low byte first, at indices that are multiples of four and the three behind each. The digest goes
+//!    out as its complement, which is the check sum.
+//! 3. The check sum and the digest of an answer, parts 5 and 7, come from
+//!    [`DatagramSums`](super::DatagramSums), one clock later. What this block gives there means nothing.
 //!
 //! Latency: 1 clock from the place to the byte.
+//!
+//! Bytes of each part: 60 answers have been sent, the first word has the index 65,536, and the check sum of the session
+//! ends in 46 hexadecimal:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9
+//! at.part           0  0  0  0  1  3  6  4  2  .
+//! at.index         11 12 19 20 45 28 34 99 32  .
+//! address_byte     30 30 30 30 30 30 30 30 30  .
+//! header_byte      40 40 40 40 40 40 40 40 40  .
+//! word_byte        50 50 50 50 50 50 50 50 50  .
+//! byte_data         . 30 40 40 30  7 60  1 50 70
+//! ```
 
 use super::types::PartIndex;
 use crate::commands::types::Word;

@@ -2,6 +2,16 @@
 //! beyond the network. [`PayloadDigest`](crate::serial::PayloadDigest) at a byte a clock.
 //!
 //! Latency: 1 clock from `commits`; `commits` comes a clock or more after the last `push`.
+//!
+//! Two bytes that count, and one that does not. The state is shown by its lowest six bits:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9 10
+//! begins          /^^\______________/^^\_____/^^\__
+//! push            ___/^^^^^\___________/^^\________
+//! push_data         . 49 50  .  .  .  . 51  .  .  .
+//! commits         ____________/^^\_________________
+//! state[5:0]       63 63 63 63 63 50 50 50 50 50 50
+//! ```
 
 use crate::commands::types::Word;
 use crate::ethernet::ByteCrc;

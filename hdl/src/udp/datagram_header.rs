@@ -1,10 +1,24 @@
 //! The header of a datagram to the host, and the digest that goes with it, both as they were when the datagram began.
 //! [`FrameHeader`](crate::serial::FrameHeader) of the UDP link.
 //!
-//! 1. A datagram of a host that is dropped in the very clock in which one to a host begins shows in the status of the
-//!    next one.
+//! 1. `starts` keeps the state. The bytes and the digest show it until the next `starts`. `kind` is not kept, so it must
+//!    stay while it is read.
+//! 2. The status says that a datagram was dropped if `drops` was high since the last `starts`. A datagram of a host that
+//!    is dropped in the very clock in which one to a host begins shows in the status of the next one.
+//! 3. The free words of the FIFO go out as bytes, four for each.
 //!
-//! Latency: none (combinational) from `kind` and `index`.
+//! Latency: none (combinational) from `kind` and `index`; 1 clock from `starts`.
+//!
+//! The status (index 5) of three datagrams of an open session, which is 1, or 5 behind a datagram that was dropped, and
+//! the low byte of the free bytes (index 6) of the last one:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8
+//! drops           ___/^^\_____/^^\___________
+//! starts          ______/^^\__/^^\__/^^\_____
+//! state.free       10 11 12 13 14 15 16 17 18
+//! index             5  5  5  5  5  5  5  6  5
+//! byte_data         .  .  .  5  5  1  1 64  5
+//! ```
 
 use super::types::DatagramState;
 use crate::commands::types::Word;

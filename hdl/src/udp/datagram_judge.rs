@@ -5,6 +5,18 @@
 //! 3. At most one field of `asks` besides `hears`, `replies` and `reply` is high.
 //!
 //! Latency: 1 clock from `comes` to `asks`.
+//!
+//! `Data` that is awaited, `Data` behind a gap, and `Data` that is damaged, in an open session:
+//! ```text
+//! clock              0  1  2  3  4  5  6  7  8  9
+//! comes            ___/^^\_____/^^\_____/^^\_____
+//! head.is_next       ./^^  .  .___  .  .___  .  .
+//! verdict.is_sound   ./^^  .  ./^^  .  .___  .  .
+//! asks.hears       ______/^^\_____/^^\___________
+//! asks.takes       ______/^^\____________________
+//! asks.gap         _______________/^^\___________
+//! asks.drops       ________________________/^^\__
+//! ```
 
 use super::types::{DatagramAsks, DatagramHead, DatagramVerdict, UdpSession};
 use crate::prelude::*;

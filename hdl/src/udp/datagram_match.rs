@@ -5,6 +5,17 @@
 //! 2. `head` is complete when the byte with index 27 has come, and stays until the next datagram begins.
 //!
 //! Latency: 1 clock from a byte to `head`.
+//!
+//! The kind (index 12) and the number (16 to 19) of a datagram, where number 3 is awaited:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9
+//! head_valid      ___/^^^^^^^^^^^^^^^^^^^^\_____
+//! index             . 11 12 15 16 17 18 19  .  .
+//! byte_data         .  0  5  0  3  0  0  0  .  .
+//! head.kind         .  .  .  5  5  5  5  5  5  5
+//! head.is_next      .  .  .  .  .  .  .  ./^^^^^
+//! head.is_less      .  .  .  .  .  .  .  .______
+//! ```
 
 use super::types::{DatagramHead, HeadIndex, UdpSession};
 use crate::commands::types::Word;

@@ -3,9 +3,23 @@
 //! 1. `starts` may be high only while `is_idle` is high. The receiver of the bytes takes one in every clock until the
 //!    end of the datagram.
 //! 2. A byte passes in every clock of `moves`. In the words of an answer the block waits for the core.
-//! 3. `cuts` ends the datagram under way at once, with `is_cut`: no byte of it may go out.
+//! 3. The parts come in the order of the page `protocol/UDP.md`: receiver and header, then a greeting, or the number of
+//!    answers with a digest or with words behind it, then the check sum. The index goes on from part to part.
+//! 4. `cuts` ends the datagram under way at once, with `is_cut`: no byte of it may go out.
 //!
 //! Latency: 1 clock from `starts` to the first byte.
+//!
+//! The end of an answer: two bytes of its number of the first word, four bytes of words, for which it waits, its digest
+//! and the check sum:
+//! ```text
+//! word_byte_valid   ______/^^^^^\_____/^^^^^\_____________________________
+//! word_byte_is_last _____________________/^^\_____________________________
+//! at.part             6  6  4  4  .  .  4  4  7  7  7  7  5  5  5  5  .  .
+//! at.index           34 35 36 37  .  . 38 39 40 41 42 43 44 45 46 47  .  .
+//! moves             /^^^^^^^^^^^\_____/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
+//! is_last           _____________________________________________/^^\_____
+//! is_idle           ________________________________________________/^^^^^
+//! ```
 
 use super::types::PartIndex;
 use crate::prelude::*;

@@ -9,6 +9,20 @@
 //! 4. In all other clocks an entry is taken if there is one and `holds` is low.
 //!
 //! Latency: 1 clock from an entry to its byte; 2 clocks from the end to `comes`.
+//!
+//! The last two bytes of a word, the check sum and the end of a datagram. The next one waits:
+//! ```text
+//! entry_valid      /^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+//! entry[8]         __________________/^^\__________________________
+//! entry_pop        /^^^^^^^^^^^^^^^^^^^^\_________________/^^^^^^^^
+//! payload_valid    _________/^^^^^^^^^^^\__________________________
+//! payload            .  .  . 21 22 23 24  .  .  .  .  .  .  .  .  .
+//! word_valid       _________/^^\___________________________________
+//! settles          _____________________/^^^^^^^^^^^^^^^^^\________
+//! comes            ________________________/^^\____________________
+//! verdict.is_sound   .  .  .  .  .  .  .  ./^^  .  .  .  .  .  .  .
+//! begins           __________________________________________/^^\__
+//! ```
 
 use super::types::{ByteIndex, DatagramVerdict, HeadIndex};
 use crate::commands::types::Word;

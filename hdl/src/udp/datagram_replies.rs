@@ -7,6 +7,19 @@
 //! 4. The end of a session cancels its receipts.
 //!
 //! Latency: 1 clock from `asks` to `is_due`.
+//!
+//! A receipt (83) is due, and then a greeting (81), which goes first. Kinds are shown without their highest bit:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9 10 11 12
+//! asks.takes      ___/^^\________________________________
+//! asks.replies    ______/^^\_____________________________
+//! is_due          ______/^^^^^^^^^^^^^^^^^^^^^^^\________
+//! kind[6:0]         .  .  3  1  1  1  1  1  3  3  .  .  .
+//! starts          ____________/^^\___________/^^\________
+//! ended           _____________________/^^\________/^^\__
+//! is_in_place     _______________/^^^^^^^^\______________
+//! place_is_taken  _________/^^^^^^^^^^^^^^\______________
+//! ```
 
 use super::types::DatagramAsks;
 use crate::prelude::*;

@@ -1,10 +1,26 @@
 //! Puts the check sums into a datagram to the host: its own, and at the end of an answer the one of all its words.
 //!
 //! 1. A byte comes a clock behind its place. The bytes before the header, the receiver's addresses, belong to no sum.
+//!    While a datagram waits for words, `at` stays at the place of the next byte.
 //! 2. A sum goes out low byte first. While it does, each byte of it is taken into the sum as well, which moves the next
 //!    one down: so a sum needs no choice among four bytes.
 //!
+//! 3. With `is_cut` no further byte goes out, and `out_drops` follows a clock later. `is_busy` is high until both are
+//!    over, so that no datagram begins before.
+//!
 //! Latency: 2 clocks from a place to the byte that goes out.
+//!
+//! The last bytes of a datagram, and a datagram that is cut after three bytes:
+//! ```text
+//! moves           /^^^^^^^^^^^^^^^^^\___________/^^^^^^^^^^^\_____
+//! at.part           0  0  5  5  5  5  .  .  .  .  0  0  0  0  .  .
+//! is_last         _______________/^^\_____________________________
+//! is_cut          _______________________________________/^^\_____
+//! out_valid       /^^^^^^^^^^^^^^^^^^^^^^^\___________/^^^^^\_____
+//! out_is_last     _____________________/^^  .  .  .  .______  .  .
+//! out_drops       __________________________________________/^^\__
+//! is_busy         /^^^^^^^^^^^^^^^^^^^^^^^\________/^^^^^^^^^^^\__
+//! ```
 
 use super::types::PartIndex;
 use crate::ethernet::ByteCrc;

@@ -8,8 +8,16 @@
 //! 4. The registers have no reset of their own. They begin at 0, as those of an FPGA do. From other contents they come
 //!    to rest as well, but the first reset may then be shorter on the port's side.
 //!
-//! Latency: 4 clocks of the core from `reset` to `core_resets`. With both clocks running, a short reset takes 14 to 16
-//! clocks of the port and 9 to 12 of the core.
+//! Latency: 3 clocks of the core from `reset` to `core_resets`, perhaps one more. With both clocks running, a short reset
+//! takes 14 to 16 clocks of the port and 9 to 12 of the core.
+//!
+//! A reset of four clocks at equal clocks:
+//! ```text
+//! clock             0  1  2  3  4  5  6  7  8  9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25
+//! reset           ___/^^^^^^^^^^^\______________________________________________________________
+//! core_resets     ____________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
+//! port_resets     _____________________/^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\_________________
+//! ```
 //!
 //! Source: the handshake of four phases, in which each of two flags waits for the other.
 

@@ -9,6 +9,17 @@
 //!    session. Bytes with other indices mean nothing.
 //!
 //! Latency: none (combinational) from an index to its byte.
+//!
+//! The last byte of a question, which opens a session. Byte 27 of the question and of the session are read when it has
+//! been copied. Clocks in between are left out:
+//! ```text
+//! head_valid      /^^\_____________________________
+//! keeps           ______/^^\_______________________
+//! opens           ______/^^\_______________________
+//! copies          _________/^^^^^^^^^^^^^^\________
+//! reads_question  /^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
+//! read_data         .  .  .  .  .  .  .  . 70 70 70
+//! ```
 
 use super::types::HeadIndex;
 use crate::leaf::LutMemory;

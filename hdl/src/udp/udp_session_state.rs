@@ -5,6 +5,19 @@
 //! 2. `fails` comes only while no datagram is being carried out.
 //!
 //! Latency: 1 clock from `asks` or `fails` to `session`.
+//!
+//! A session that takes two `Data`, with a gap before the second one:
+//! ```text
+//! clock              0  1  2  3  4  5  6  7  8  9 10 11 12
+//! asks.opens       ___/^^\________________________________
+//! asks.takes       ____________/^^\________/^^\___________
+//! asks.gap         __________________/^^\_________________
+//! asks.closes      ______________________________/^^\_____
+//! session.is_open  ______/^^^^^^^^^^^^^^^^^^^^^^^^^^\_____
+//! session.expected   0  0  0  0  0  1  1  1  1  2  2  0  0
+//! saw_gap          _____________________/^^^^^\___________
+//! forgets          /^^^^^^^^\_______________________/^^^^^
+//! ```
 
 use super::types::{DatagramAsks, UdpSession};
 use crate::commands::types::Word;

@@ -32,5 +32,6 @@ pub mod parts {
     pub use super::pcie::files::{CardFiles, RegisterFile};
     pub use super::pcie::left_behind::calls_left_behind;
     pub use super::serial::protocol::{Params, SerialProtocol, Statistics};
+    pub use super::udp::loss::is_lost_on_the_way;
     pub use super::udp::protocol::{UdpParams, UdpProtocol, UdpStatistics};
 }

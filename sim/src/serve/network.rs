@@ -6,6 +6,7 @@ use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use incircle::transports::parts::is_lost_on_the_way;
 use incircle_model::ModelError;
 use incircle_protocol::{Config, MAX_HOST_DATAGRAM};
 use incircle_testkit::{Network, NetworkFaults};
@@ -155,7 +156,7 @@ impl Server {
                 self.take_in(from, &bytes[..length]);
                 Ok(true)
             }
-            Err(error) if is_passing(&error) => Ok(false),
+            Err(error) if means_no_datagram(&error) => Ok(false),
             Err(error) => Err(error),
         }
     }
@@ -225,8 +226,9 @@ impl Server {
     }
 }
 
-/// Whether an error of a receiving socket means no more than that nothing has come, or that one datagram is lost.
-fn is_passing(error: &io::Error) -> bool {
+/// Whether an error of a receiving socket means no more than that nothing has come, or that one datagram is lost. A
+/// host that is gone, or a firewall, may have refused a datagram that was sent earlier.
+fn means_no_datagram(error: &io::Error) -> bool {
     matches!(
         error.kind(),
         ErrorKind::WouldBlock
@@ -234,11 +236,8 @@ fn is_passing(error: &io::Error) -> bool {
             | ErrorKind::Interrupted
             | ErrorKind::ConnectionRefused
             | ErrorKind::ConnectionReset
-            | ErrorKind::HostUnreachable
-            | ErrorKind::NetworkUnreachable
-            | ErrorKind::NetworkDown
             | ErrorKind::PermissionDenied
-    ) || matches!(error.raw_os_error(), Some(105 | 55)) // ENOBUFS of Linux and of macOS
+    ) || is_lost_on_the_way(error)
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ mod visit;
 
 pub use ethernet::PHY_WRITES;
 pub use links::{HASTY_LINK, QUICK_LINK};
-pub use udp::QUICK_UDP_LINK;
+pub use udp::{QUICK_UDP_LINK, UDP_PAGE_LINK};
 
 /// Returns the name of the root module and the Verilog of every block that is tested by itself.
 ///

@@ -17,6 +17,7 @@ mod codec;
 mod discover;
 mod fault;
 mod greeting;
+pub(super) mod loss;
 pub(super) mod protocol;
 mod reader;
 mod sender;

@@ -9,6 +9,7 @@ use incircle_protocol::{Command, UdpGreeting, MAX_DEVICE_DATAGRAM};
 
 use super::address::UdpAddress;
 use super::fault::UdpFault;
+use super::loss::is_lost_on_the_way;
 use super::protocol::{UdpParams, UdpProtocol, UdpStatistics};
 use super::unit::Answer;
 use crate::error::{Error, TransportError};
@@ -118,8 +119,7 @@ impl UdpTransport {
                     self.protocol.refused(self.peer.port());
                     sent += 1;
                 }
-                // A network that is away for a moment, or no room in the system: as if lost on the way.
-                Err(error) if is_passing(&error) => sent += 1,
+                Err(error) if is_lost_on_the_way(&error) => sent += 1,
                 Err(error) => return Err(UdpFault::Network { what: "send", reason: error.to_string() }),
             }
         }
@@ -162,7 +162,7 @@ impl UdpTransport {
                     self.protocol.refused(self.peer.port());
                     Ok(false)
                 }
-                _ if is_passing(&error) => Ok(false),
+                _ if is_lost_on_the_way(&error) => Ok(false),
                 _ => Err(UdpFault::Network { what: "receive", reason: error.to_string() }),
             },
         }
@@ -182,13 +182,6 @@ impl UdpTransport {
         self.socket.set_nonblocking(true).map_err(refused)?;
         taken.map(|_| ())
     }
-}
-
-/// Whether an error of the network stands for a datagram that is lost on its way.
-fn is_passing(error: &io::Error) -> bool {
-    matches!(error.kind(), IoKind::HostUnreachable | IoKind::NetworkUnreachable | IoKind::NetworkDown)
-        // ENOBUFS of Linux and of macOS, and its number on Windows.
-        || matches!(error.raw_os_error(), Some(105 | 55 | 10_055))
 }
 
 /// Whether Windows says that a datagram was longer than the buffer (WSAEMSGSIZE). Other systems cut the datagram and

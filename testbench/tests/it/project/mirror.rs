@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 59] = [
+const ELSEWHERE: [(&str, &str, &str); 45] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -31,16 +31,6 @@ const ELSEWHERE: [(&str, &str, &str); 59] = [
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
     ("engine/solo/solo_steps", "blocks/engine/solo/solo", "the states of solo, which alone uses them"),
-    ("ethernet/byte_roles", "blocks/ethernet/udp_port", "a table of the headers, seen in what each kind of frame does"),
-    ("ethernet/datagram_check", "blocks/ethernet/udp_port", "lengths and check sums of frames, right and wrong"),
-    ("ethernet/datagram_gate", "blocks/ethernet/udp_port", "the entries, also to a reader that is too slow"),
-    ("ethernet/datagram_sender", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
-    ("ethernet/datagram_queue", "blocks/ethernet/udp_port", "the datagrams that go out, at any ratio of the clocks"),
-    ("ethernet/frame_match", "blocks/ethernet/udp_port", "the headers of frames, right and wrong"),
-    ("ethernet/header_bytes", "blocks/ethernet/udp_port", "the headers of the frames that go out"),
-    ("ethernet/own_bytes", "blocks/ethernet/udp_port", "the addresses in the frames that go out"),
-    ("ethernet/responder", "blocks/ethernet/udp_port", "the answers to ARP and echo requests"),
-    ("ethernet/send_choice", "blocks/ethernet/udp_port", "answers and datagrams that share the line"),
     ("commands/kept_halves", "blocks/commands/record_packer", "the states of the packer, which alone uses them"),
     ("commands/read_range", "blocks/commands/answer_head", "ranges of every kind, inside and outside the mesh"),
     ("commands/record_group", "blocks/commands/record_packer", "payloads of every length in every form"),
@@ -63,10 +53,6 @@ const ELSEWHERE: [(&str, &str, &str); 59] = [
     ("stream/core_side", "blocks/stream/stream_link", "the half of the link in the clock of the core"),
     ("stream/device_identity", "blocks/stream/register_block", "constants of registers, read through the port"),
     ("stream/traffic", "blocks/stream/register_block", "counters, read through the port"),
-    ("udp/datagram_bytes", "blocks/udp/udp_link", "the bytes of every datagram that goes out"),
-    ("udp/datagram_header", "blocks/udp/udp_link", "the headers of the datagrams that go out"),
-    ("udp/datagram_parts", "blocks/udp/udp_link", "the order of the bytes that go out, also if they are cut"),
-    ("udp/datagram_sums", "blocks/udp/udp_link", "the check sums of the datagrams that go out"),
     ("udp/udp_device", "links/ether", "wires between port and link, at the pins of a board"),
     ("udp/udp_receiver", "blocks/udp/udp_link", "the receiving half of the link, at its ports"),
     ("udp/udp_transmitter", "blocks/udp/udp_link", "the sending half of the link, at its ports"),

@@ -14,7 +14,7 @@ use incircle_hdl::engine::{
     SeedProgress, SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict,
     Visit, VisitEvents, Write, WriteEnables,
 };
-use incircle_hdl::ethernet::types::{OnTheWay, Station};
+use incircle_hdl::ethernet::types::{DatagramState, HeadByte, HeaderRow, Kinds, OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
 use incircle_hdl::living::types::{ContextEnd, DealtItem, Finding, Launch, PartCame, RunHead, Standing};
 use incircle_hdl::mesh::{ReadRecord, Record};
@@ -22,7 +22,9 @@ use incircle_hdl::predicate::{Corners, EdgeFlags, NearSigns, OrderFlags, PairFla
 use incircle_hdl::serial::types::{AnswerPlace, BytePlace, Contents, FifoRoom, FrameHead, Lamps, Receipt, Session};
 use incircle_hdl::serial::Asked;
 use incircle_hdl::stream::{AnswerEvents, CommandEvents};
-use incircle_hdl::udp::types::{DatagramAsks, DatagramHead, DatagramVerdict, UdpSession};
+use incircle_hdl::udp::types::{
+    DatagramAsks, DatagramHead, DatagramState as LinkState, DatagramVerdict, PartIndex, UdpSession,
+};
 use rust_hdl_core::prelude::*;
 use verilated::{Model, PortId};
 
@@ -202,7 +204,13 @@ packed_values!(
     DatagramAsks,
     Weights,
     DatagramHead,
+    DatagramState,
     DatagramVerdict,
+    HeadByte,
+    HeaderRow,
+    Kinds,
+    LinkState,
+    PartIndex,
     UdpSession,
     SoloPhase,
     SoloProgress,

@@ -1,6 +1,7 @@
 //! Draws the wave of a block under given inputs.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::rig::block_ports::NamedPorts;
 use crate::rig::stepper::{Cell, Stepper, Wave};
@@ -29,6 +30,17 @@ const CLOCKS_BEFORE: usize = 4;
 
 /// Runs `clocks` clocks after [`CLOCKS_BEFORE`], and draws them.
 pub fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clocks: usize, lanes: &[Lane]) -> Wave {
+    draw_range(name, rust, stimuli, 0..clocks, lanes)
+}
+
+/// Runs all clocks up to the end of `drawn` after [`CLOCKS_BEFORE`], and draws those in `drawn`.
+pub fn draw_range<U: NamedPorts>(
+    name: &'static str,
+    rust: U,
+    stimuli: &Stimuli,
+    drawn: Range<usize>,
+    lanes: &[Lane],
+) -> Wave {
     let ports = blocks::model(name).description().ports();
     let inputs: Vec<&'static str> =
         ports.filter(|port| port.direction == Direction::Input && port.name != "clock").map(|port| port.name).collect();
@@ -41,7 +53,7 @@ pub fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clock
         stepper.settle();
         stepper.edge();
     }
-    for clock in 0..clocks {
+    for clock in 0..drawn.end {
         let mut driven: BTreeMap<_, _> = inputs.iter().map(|input| (*input, 0)).collect();
         driven.extend(stimuli.iter().map(|(_, input, _)| (*input, 0)));
         let now = stimuli.iter().filter(|(at, ..)| *at == clock);
@@ -71,7 +83,9 @@ pub fn draw<U: NamedPorts>(name: &'static str, rust: U, stimuli: &Stimuli, clock
                 (*name, cell)
             })
             .collect();
-        wave.take(&cells);
+        if drawn.contains(&clock) {
+            wave.take(&cells);
+        }
         stepper.edge();
     }
     wave

@@ -10,6 +10,7 @@ pub mod command_reference;
 pub mod drawing;
 pub mod ethernet_frames;
 pub mod flip_mesh;
+pub mod head_bytes;
 pub mod ids;
 pub mod lockstep;
 pub mod memories;

@@ -1,5 +1,6 @@
 //! Runs `ByteCrc` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::ethernet_frames::frame_sum;
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::ethernet::ByteCrc;
@@ -43,4 +44,19 @@ fn check_sums_run_a_byte_a_clock() {
         block.expect("state", ByteCrc::SOUND);
     }
     assert_eq!(frame_sum(b"123456789"), 0xcbf4_3926u32.to_le_bytes());
+}
+
+#[test]
+fn wave_of_a_sum_over_three_bytes() {
+    let mut stimuli = vec![(0, "sets", 1), (0, "start", ByteCrc::FIRST.into())];
+    for (clock, byte) in [(1, 49), (2, 50), (4, 51)] {
+        stimuli.extend([(clock, "takes", 1), (clock, "byte_data", byte)]);
+    }
+    let lanes = [
+        ("sets", "sets", 0, 1, When::Always),
+        ("takes", "takes", 0, 1, When::Always),
+        ("byte_data", "byte_data", 0, 8, When::If("takes")),
+        ("state[5:0]", "state", 0, 6, When::At(&[1, 2, 3, 4, 5, 6])),
+    ];
+    draw("ethernet_byte_crc", ByteCrc::default(), &stimuli, 7, &lanes).assert_drawn_in("byte_crc");
 }

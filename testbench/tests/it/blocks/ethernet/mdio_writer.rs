@@ -1,6 +1,6 @@
 //! Runs `MdioWriter` in Rust and in Verilog beside plain code: all three must agree.
 
-use crate::rig::stepper::{named_ports, Stepper};
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_blocks::PHY_WRITES;
 use incircle_hdl::ethernet::MdioWriter;
 
@@ -49,4 +49,33 @@ fn registers_are_written_once_after_each_reset() {
             block.edge();
         }
     }
+}
+
+#[test]
+fn wave_of_the_first_bits_behind_the_preamble() {
+    let mut block = Stepper::new("ethernet_mdio_writer", MdioWriter::new(5, &PHY_WRITES, 7), 1);
+    block.set("reset", true);
+    block.settle();
+    block.edge();
+    block.set("reset", false);
+    block.settle();
+    while !block.is("mdc") {
+        block.edge();
+        block.settle();
+    }
+    let mut wave = Wave::default();
+    // A bit has 64 clocks, and the first one has just passed its half. A column stands for 16 clocks.
+    for clock in 32..64 * 37 {
+        if clock >= 64 * 30 && clock % 16 == 8 {
+            wave.take(&[
+                ("mdc", Cell::Bit(block.is("mdc"))),
+                ("mdio_out", Cell::Bit(block.is("mdio_out"))),
+                ("mdio_drives", Cell::Bit(block.is("mdio_drives"))),
+                ("is_done", Cell::Bit(block.is("is_done"))),
+            ]);
+        }
+        block.edge();
+        block.settle();
+    }
+    wave.assert_drawn_in("mdio_writer");
 }

@@ -1,5 +1,6 @@
 //! Runs `OnesSum` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::ethernet::OnesSum;
 use incircle_testkit::SplitMix64;
@@ -39,4 +40,18 @@ fn sums_are_those_of_whole_words_modulo_65535() {
         block.expect("sum", if total > 0 && total.is_multiple_of(0xffff) { 0xffff } else { total % 0xffff });
     }
     assert!(wraps > 100, "{wraps} sums had a carry");
+}
+
+#[test]
+fn wave_of_a_word_with_a_carry() {
+    let stimuli =
+        [(0, "sets", 1), (0, "start", 0xfffc), (1, "takes", 1), (2, "takes", 1), (2, "is_low", 1), (2, "byte_data", 9)];
+    let lanes = [
+        ("sets", "sets", 0, 1, When::Always),
+        ("takes", "takes", 0, 1, When::Always),
+        ("is_low", "is_low", 0, 1, When::If("takes")),
+        ("byte_data", "byte_data", 0, 8, When::If("takes")),
+        ("sum[5:0]", "sum", 0, 6, When::At(&[1, 2, 3, 4, 5])),
+    ];
+    draw("ethernet_ones_sum", OnesSum::default(), &stimuli, 6, &lanes).assert_drawn_in("ones_sum");
 }

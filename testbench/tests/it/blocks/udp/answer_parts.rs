@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::AnswerParts;
 use incircle_testkit::SplitMix64;
@@ -132,4 +133,28 @@ fn answers_are_cut_into_parts_with_their_place() {
         rig.block.expect("answers", number);
         rig.block.expect("awaits", true);
     }
+}
+
+#[test]
+fn wave_of_an_answer_of_three_words() {
+    let mut stimuli = vec![(6, "starts", 1), (20, "ended", 1)];
+    // A head, the length 1, and a word. Each stays until it is taken.
+    for (word, clocks) in [(0x0403_0201u128, 0..1), (1, 1..11), (0x0c0b_0a09, 11..15)] {
+        stimuli.extend(clocks.flat_map(|clock| [(clock, "word_valid", 1), (clock, "word_data", word)]));
+    }
+    stimuli.extend((7..19).map(|clock| (clock, "takes", 1)));
+    let lanes = [
+        ("word_valid", "word_valid", 0, 1, When::Always),
+        ("word_ready", "word_ready", 0, 1, When::If("word_valid")),
+        ("is_due", "is_due", 0, 1, When::Always),
+        ("is_last", "is_last", 0, 1, When::If("is_due")),
+        ("starts", "starts", 0, 1, When::Always),
+        ("takes", "takes", 0, 1, When::Always),
+        ("byte_valid", "byte_valid", 0, 1, When::Always),
+        ("byte_data", "byte_data", 0, 8, When::If("byte_valid")),
+        ("byte_is_last", "byte_is_last", 0, 1, When::If("byte_valid")),
+        ("ended", "ended", 0, 1, When::Always),
+        ("awaits", "awaits", 0, 1, When::Always),
+    ];
+    draw("udp_answer_parts", AnswerParts::default(), &stimuli, 22, &lanes).assert_drawn_in("answer_parts");
 }

@@ -1,5 +1,6 @@
 //! Runs `DatagramDigest` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::ethernet_frames::frame_sum;
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::DatagramDigest;
@@ -53,4 +54,20 @@ fn digest_covers_the_bytes_that_count() {
             block.edge();
         }
     }
+}
+
+#[test]
+fn wave_of_bytes_that_count_and_of_one_that_does_not() {
+    let mut stimuli = vec![(0, "begins", 1), (4, "commits", 1), (6, "begins", 1), (9, "begins", 1)];
+    for (clock, byte) in [(1, 49), (2, 50), (7, 51)] {
+        stimuli.extend([(clock, "push", 1), (clock, "push_data", byte)]);
+    }
+    let lanes = [
+        ("begins", "begins", 0, 1, When::Always),
+        ("push", "push", 0, 1, When::Always),
+        ("push_data", "push_data", 0, 8, When::If("push")),
+        ("commits", "commits", 0, 1, When::Always),
+        ("state[5:0]", "state", 0, 6, When::Always),
+    ];
+    draw("udp_datagram_digest", DatagramDigest::default(), &stimuli, 11, &lanes).assert_drawn_in("datagram_digest");
 }

@@ -1,5 +1,6 @@
 //! Runs `DatagramJudge` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::DatagramJudge;
 use incircle_testkit::SplitMix64;
@@ -154,4 +155,24 @@ fn judge_says_what_a_datagram_asks_for() {
         block.expect_masked("asks", WITHOUT_REPLY, 0u32);
     }
     assert!(counts.iter().all(|count| *count > 20), "{counts:?}");
+}
+
+#[test]
+fn wave_of_data_that_is_taken_and_data_behind_a_gap_and_data_that_is_damaged() {
+    let mut stimuli = vec![(1, "comes", 1), (4, "comes", 1), (7, "comes", 1), (1, "head_is_next", 1)];
+    for clock in 0..10 {
+        stimuli.extend([(clock, "head_kind", 5), (clock, "head_is_of_session", 1), (clock, "head_names_session", 1)]);
+        stimuli.extend([(clock, "session_is_open", 1), (clock, "has_room", 1), (clock, "verdict_counts", 1)]);
+        stimuli.extend([(clock, "verdict_is_data", 1), (clock, "verdict_is_sound", u128::from(clock < 6))]);
+    }
+    let lanes = [
+        ("comes", "comes", 0, 1, When::Always),
+        ("head.is_next", "head_is_next", 0, 1, When::If("comes")),
+        ("verdict.is_sound", "verdict_is_sound", 0, 1, When::If("comes")),
+        ("asks.hears", "asks_hears", 0, 1, When::Always),
+        ("asks.takes", "asks_takes", 0, 1, When::Always),
+        ("asks.gap", "asks_gap", 0, 1, When::Always),
+        ("asks.drops", "asks_drops", 0, 1, When::Always),
+    ];
+    draw("udp_datagram_judge", DatagramJudge::default(), &stimuli, 10, &lanes).assert_drawn_in("datagram_judge");
 }

@@ -1,5 +1,6 @@
 //! Runs `DatagramMatch` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::DatagramMatch;
 use incircle_testkit::SplitMix64;
@@ -85,4 +86,25 @@ fn match_compares_the_beginning_of_datagrams() {
         }
     }
     assert!(counts.iter().all(|count| *count > 500), "{counts:?}");
+}
+
+#[test]
+fn wave_of_the_kind_and_the_number_of_a_datagram() {
+    // The kind 5 at index 12, and the number 3 at indices 16 to 19 where 3 is awaited.
+    let mut stimuli = Vec::new();
+    for (clock, (index, byte)) in
+        [(11, 0), (12, 5), (15, 0), (16, 3), (17, 0), (18, 0), (19, 0)].into_iter().enumerate()
+    {
+        stimuli.extend([(clock + 1, "head_valid", 1), (clock + 1, "index", index), (clock + 1, "byte_data", byte)]);
+    }
+    stimuli.extend((0..10).map(|clock| (clock, "session_expected", 3)));
+    let lanes = [
+        ("head_valid", "head_valid", 0, 1, When::Always),
+        ("index", "index", 0, 5, When::If("head_valid")),
+        ("byte_data", "byte_data", 0, 8, When::If("head_valid")),
+        ("head.kind", "head_kind", 0, 8, When::At(&[3, 4, 5, 6, 7, 8, 9])),
+        ("head.is_next", "head_is_next", 0, 1, When::At(&[8, 9])),
+        ("head.is_less", "head_is_less", 0, 1, When::At(&[8, 9])),
+    ];
+    draw("udp_datagram_match", DatagramMatch::default(), &stimuli, 10, &lanes).assert_drawn_in("datagram_match");
 }

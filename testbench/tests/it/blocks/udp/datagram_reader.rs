@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use crate::rig::drawing::{draw_range, When};
 use crate::rig::ethernet_frames::frame_sum;
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::DatagramReader;
@@ -141,4 +142,32 @@ fn reader_gives_the_words_of_datagrams_and_says_whether_they_are_sound() {
         }
     }
     assert!(sound > 100, "{sound} datagrams were sound");
+}
+
+#[test]
+fn wave_of_the_end_of_a_datagram_of_one_word() {
+    // Twelve bytes of a sender, sixteen of a header, a word and its check sum, each an entry, and the end.
+    let body: Vec<u8> = [vec![0; 16], vec![21, 22, 23, 24]].concat();
+    let bytes = [vec![0; 12], body.clone(), frame_sum(&body).to_vec()].concat();
+    let mut stimuli: Vec<(usize, &'static str, u128)> = Vec::new();
+    for (clock, byte) in bytes.iter().enumerate() {
+        stimuli.extend([(clock, "entry_valid", 1), (clock, "entry", u128::from(*byte))]);
+    }
+    stimuli.extend([(36, "entry_valid", 1), (36, "entry", 0x101)]);
+    // The next datagram waits.
+    stimuli.extend((37..46).map(|clock| (clock, "entry_valid", 1)));
+    let lanes = [
+        ("entry_valid", "entry_valid", 0, 1, When::Always),
+        ("entry[8]", "entry", 8, 1, When::If("entry_valid")),
+        ("entry_pop", "entry_pop", 0, 1, When::Always),
+        ("payload_valid", "payload_valid", 0, 1, When::Always),
+        ("payload", "payload", 0, 8, When::If("payload_valid")),
+        ("word_valid", "word_valid", 0, 1, When::Always),
+        ("settles", "settles", 0, 1, When::Always),
+        ("comes", "comes", 0, 1, When::Always),
+        ("verdict.is_sound", "verdict_is_sound", 0, 1, When::If("comes")),
+        ("begins", "begins", 0, 1, When::Always),
+    ];
+    let block = DatagramReader::default();
+    draw_range("udp_datagram_reader", block, &stimuli, 30..46, &lanes).assert_drawn_in("datagram_reader");
 }

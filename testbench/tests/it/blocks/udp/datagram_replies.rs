@@ -1,5 +1,6 @@
 //! Runs `DatagramReplies` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::DatagramReplies;
 use incircle_testkit::SplitMix64;
@@ -102,4 +103,30 @@ fn replies_are_due_once_and_in_their_order() {
         }
     }
     assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
+}
+
+#[test]
+fn wave_of_a_receipt_and_of_an_answer_that_goes_first() {
+    // Kind 81, a greeting, is 129; the wave shows kinds without their highest bit.
+    let stimuli = [
+        (0, "forgets", 1),
+        (1, "asks_takes", 1),
+        (2, "asks_replies", 1),
+        (2, "asks_reply", 1),
+        (4, "starts", 1),
+        (7, "ended", 1),
+        (9, "starts", 1),
+        (11, "ended", 1),
+    ];
+    let lanes = [
+        ("asks.takes", "asks_takes", 0, 1, When::Always),
+        ("asks.replies", "asks_replies", 0, 1, When::Always),
+        ("is_due", "is_due", 0, 1, When::Always),
+        ("kind[6:0]", "kind", 0, 7, When::If("is_due")),
+        ("starts", "starts", 0, 1, When::Always),
+        ("ended", "ended", 0, 1, When::Always),
+        ("is_in_place", "is_in_place", 0, 1, When::Always),
+        ("place_is_taken", "place_is_taken", 0, 1, When::Always),
+    ];
+    draw("udp_datagram_replies", DatagramReplies::default(), &stimuli, 13, &lanes).assert_drawn_in("datagram_replies");
 }

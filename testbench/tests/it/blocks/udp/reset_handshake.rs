@@ -1,7 +1,7 @@
 //! Runs `ResetHandshake` in Rust and in Verilog: both must agree at every edge of either clock, at ratios of 1:4 to 4:1
 //! with phases that drift, with resets of any length, and with a clock of the port that stands for a while.
 
-use crate::rig::stepper::{named_ports, Stepper};
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::stream_rig::{rise, Clocks, PERIODS};
 use incircle_hdl::udp::ResetHandshake;
 use incircle_testkit::SplitMix64;
@@ -150,4 +150,24 @@ fn a_long_reset_holds_both_sides() {
         rig.step(true, true);
         assert!(time < 60 || rig.block.is("core_resets") && rig.block.is("port_resets"), "at step {time}");
     }
+}
+
+#[test]
+fn wave_of_a_short_reset_at_equal_clocks() {
+    let mut block = Stepper::new("udp_reset_handshake", ResetHandshake::default(), 1);
+    let mut wave = Wave::default();
+    for time in 0..KNOWN + 26 {
+        let reset = time < KNOWN / 2 || (KNOWN + 1..KNOWN + 5).contains(&time);
+        block.set("reset", reset);
+        block.settle();
+        if time >= KNOWN {
+            wave.take(&[
+                ("reset", Cell::Bit(reset)),
+                ("core_resets", Cell::Bit(block.is("core_resets"))),
+                ("port_resets", Cell::Bit(block.is("port_resets"))),
+            ]);
+        }
+        rise(&mut block, [(CORE_AND_PORT[0], true), (CORE_AND_PORT[1], true)]);
+    }
+    wave.assert_drawn_in("reset_handshake");
 }

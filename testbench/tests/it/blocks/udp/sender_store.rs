@@ -1,6 +1,6 @@
 //! Runs `SenderStore` in Rust and in Verilog beside plain code: all three must agree.
 
-use crate::rig::stepper::{named_ports, Stepper};
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use incircle_hdl::udp::SenderStore;
 use incircle_testkit::SplitMix64;
 
@@ -79,4 +79,46 @@ fn store_keeps_question_and_session_while_datagrams_come() {
         }
     }
     assert!(session.is_some());
+}
+
+#[test]
+fn wave_of_a_question_that_opens_a_session() {
+    let mut block = Stepper::new("udp_sender_store", SenderStore::default(), 1);
+    block.set("reads_question", false);
+    block.set("read_index", 27u32);
+    block.set("reset", true);
+    clock(&mut block, None, false, false);
+    block.set("reset", false);
+    (0..27).for_each(|index| clock(&mut block, Some((index, 0)), false, false));
+    let mut wave = Wave::default();
+    for now in 0..38 {
+        let (head, opens) = ((now == 0).then_some((27, 70)), now == 2);
+        // Both can be read when the question has been copied.
+        let reads_question = now < 36;
+        block.set("reads_question", reads_question);
+        clock_settled(&mut block, head, opens);
+        let reads = now >= 35;
+        if !(5..32).contains(&now) {
+            wave.take(&[
+                ("head_valid", Cell::Bit(head.is_some())),
+                ("keeps", Cell::Bit(opens)),
+                ("opens", Cell::Bit(opens)),
+                ("copies", Cell::Bit(block.is("copies"))),
+                ("reads_question", Cell::Bit(reads_question)),
+                ("read_data", if reads { Cell::Number(block.get("read_data")) } else { Cell::Open }),
+            ]);
+        }
+        block.edge();
+    }
+    wave.assert_drawn_in("sender_store");
+}
+
+/// Sets the inputs of a clock and brings the outputs up to date.
+fn clock_settled(block: &mut Stepper<SenderStore>, head: Option<(usize, u8)>, opens: bool) {
+    block.set("head_valid", head.is_some());
+    block.set("index", head.map_or(31, |(index, _)| index as u32));
+    block.set("byte_data", head.map_or(0, |(_, byte)| byte));
+    block.set("keeps", opens);
+    block.set("opens", opens);
+    block.settle();
 }

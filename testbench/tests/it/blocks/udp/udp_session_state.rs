@@ -1,5 +1,6 @@
 //! Runs `UdpSessionState` in Rust and in Verilog beside plain code: all three must agree.
 
+use crate::rig::drawing::{draw, When};
 use crate::rig::stepper::{named_ports, Stepper};
 use incircle_hdl::udp::UdpSessionState;
 use incircle_testkit::SplitMix64;
@@ -49,4 +50,21 @@ fn session_opens_counts_and_ends() {
         }
     }
     assert!(sessions > 100, "{sessions} sessions");
+}
+
+#[test]
+fn wave_of_a_session_with_a_gap() {
+    let stimuli =
+        [(1, "asks_opens", 1), (4, "asks_takes", 1), (6, "asks_gap", 1), (8, "asks_takes", 1), (10, "asks_closes", 1)];
+    let lanes = [
+        ("asks.opens", "asks_opens", 0, 1, When::Always),
+        ("asks.takes", "asks_takes", 0, 1, When::Always),
+        ("asks.gap", "asks_gap", 0, 1, When::Always),
+        ("asks.closes", "asks_closes", 0, 1, When::Always),
+        ("session.is_open", "session_is_open", 0, 1, When::Always),
+        ("session.expected", "session_expected", 0, 32, When::Always),
+        ("saw_gap", "saw_gap", 0, 1, When::Always),
+        ("forgets", "forgets", 0, 1, When::Always),
+    ];
+    draw("udp_session_state", UdpSessionState::default(), &stimuli, 13, &lanes).assert_drawn_in("udp_session_state");
 }
