@@ -11,6 +11,16 @@
 //! Latency: datagrams of 1,472 bytes go out one in 1,538 clocks of the port, if the writer is as fast. The first byte
 //! of a datagram is on the pins about 40 clocks after its last byte was taken.
 //!
+//! The end of a frame with the payload 60 to 77 and its check sum, and the last entries, at equal clocks:
+//! ```text
+//! rx_valid        /^^^^^^^^^^^^^^^^^^^^\_________________________________________
+//! rx_data          75 76 77  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! entry_valid     /^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\______________/^^\___________
+//! entry[8]        _________________________________  .  .  .  .  ./^^  .  .  .  .
+//! entry[7:0]       67 68 69 70 71 72 73 74 75 76 77  .  .  .  .  .  1  .  .  .  .
+//! ```
+//!
+//! The blocks of the port:
 //! ```text
 //! PHY -> MacIn -> ByteRoles -> FrameMatch, DatagramCheck -> DatagramGate -> AsyncFifo -------> entries
 //!                     |              |

@@ -5,6 +5,19 @@
 //! 2. The core is in reset while no session is open, and a session begins with a reset of the core.
 //! 3. Datagrams come as entries and go as bytes, as [`UdpPort`](crate::ethernet::UdpPort) describes them.
 //!
+//! The last entries of an `Open`, the reset of the core, and the first three bytes and the last byte of the answer. The
+//! sender's addresses begin with the bytes 20 to 22. Clocks are left out where the session is copied, and where the other
+//! bytes of the answer go out:
+//! ```text
+//! entry_valid     /^^^^^^^^\_______________________________________________
+//! entry[8]        ______/^^  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
+//! core_reset      /^^^^^^^^^^^^^^^^^^^^^^^\________________________________
+//! byte_valid      _______________________________________/^^^^^^^^^^^\_____
+//! byte_data         .  .  .  .  .  .  .  .  .  .  .  .  . 20 21 22  .  .  .
+//! byte_is_last      .  .  .  .  .  .  .  .  .  .  .  .  ._________/^^  .  .
+//! ```
+//!
+//! The blocks of the link:
 //! ```text
 //! entries -> UdpReceiver ------- commands ------------> core
 //!               | asks, free words, digest               |

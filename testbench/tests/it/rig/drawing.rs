@@ -62,6 +62,11 @@ pub fn draw_range<U: NamedPorts>(
             stepper.set(input, *value);
         }
         stepper.settle();
+        // An output may mean nothing before the drawing begins.
+        if !drawn.contains(&clock) {
+            stepper.edge();
+            continue;
+        }
         let value = |port: &str, low: u32, width: u32| {
             let mask = ((1 << width) - 1) << low;
             let driven = driven.get(port).map(|value| value & mask);
@@ -83,9 +88,7 @@ pub fn draw_range<U: NamedPorts>(
                 (*name, cell)
             })
             .collect();
-        if drawn.contains(&clock) {
-            wave.take(&cells);
-        }
+        wave.take(&cells);
         stepper.edge();
     }
     wave

@@ -34,12 +34,18 @@ impl Rig {
         let block = Stepper::new("ethernet_datagram_sender", DatagramSender::default(), seed as u32);
         let mut rig = Self { block, random: SplitMix64::new(seed), datagrams: VecDeque::new(), read: [0; 2] };
         rig.block.set("station", OURS.packed());
-        rig.block.set("reset", true);
-        (0..4).for_each(|_| {
-            rig.clock(false);
-        });
-        rig.block.set("reset", false);
+        rig.reset();
         rig
+    }
+
+    /// Resets the block for as many clocks as a byte takes through it, in which its outputs mean nothing.
+    fn reset(&mut self) {
+        self.block.set("reset", true);
+        for _ in 0..8 {
+            self.settle(false);
+            self.block.edge();
+        }
+        self.block.set("reset", false);
     }
 
     /// Passes a clock, and returns `waits`, the byte of this clock and whether the byte is the last one.
@@ -153,11 +159,7 @@ fn a_reset_forgets_the_frame() {
             rig.edge();
         }
         rig.datagrams.clear();
-        rig.block.set("reset", true);
-        (0..4).for_each(|_| {
-            rig.clock(false);
-        });
-        rig.block.set("reset", false);
+        rig.reset();
         let frame = rig.frame(datagram, 3);
         assert_eq!(frame, udp(DEVICE, (to.mac, to.address, to.port), &[run; 60], false));
     }

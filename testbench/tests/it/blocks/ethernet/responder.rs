@@ -45,8 +45,18 @@ impl Rig {
     }
 
     fn reset(&mut self) {
+        // As many clocks as a byte takes through the block. The outputs mean nothing in them.
         self.block.set("reset", true);
-        (0..4).for_each(|_| self.clock(false, None, Asks::Nothing));
+        for port in ["frame_begins", "head_valid", "asks_address", "asks_echo", "begins"] {
+            self.block.set(port, false);
+        }
+        self.block.set("station", OURS.packed());
+        self.block.set("head", 0u32);
+        self.block.set("place", 0u32);
+        for _ in 0..6 {
+            self.block.settle();
+            self.block.edge();
+        }
         self.block.set("reset", false);
         (self.since_begin, self.coming) = (None, Vec::new());
     }
@@ -223,14 +233,14 @@ fn wave_of_a_question_and_the_beginning_and_the_end_of_its_answer() {
         rig.block.set("begins", begins);
         rig.block.settle();
         let comes = (3 + TO_FIRST..3 + TO_FIRST + 60).contains(&clock);
-        let byte = rig.block.get("byte_data");
+        let byte = if comes { Cell::Number(rig.block.get("byte_data")) } else { Cell::Open };
         if !(11..65).contains(&clock) {
             wave.take(&[
                 ("head_valid", Cell::Bit(is_last_byte)),
                 ("asks_address", Cell::Bit(asks)),
                 ("waits", Cell::Bit(rig.block.is("waits"))),
                 ("begins", Cell::Bit(begins)),
-                ("byte_data", if comes { Cell::Number(byte) } else { Cell::Open }),
+                ("byte_data", byte),
                 ("byte_is_last", Cell::Bit(rig.block.is("byte_is_last"))),
             ]);
         }

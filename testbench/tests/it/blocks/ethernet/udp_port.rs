@@ -6,8 +6,8 @@ use std::collections::VecDeque;
 use crate::rig::ethernet_frames::{
     arp, echo, internet_sum, reaction, sealed, udp, Party, Reaction, ALL, BROADCAST, DEVICE,
 };
-use crate::rig::stepper::{named_ports, Stepper};
-use crate::rig::stream_rig::{Clocks, Pins, Verilog};
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
+use crate::rig::stream_rig::{rise, Clocks, Pins, Verilog};
 use incircle_hdl::ethernet::UdpPort;
 use incircle_testkit::SplitMix64;
 
@@ -520,4 +520,39 @@ fn answers_and_datagrams_share_the_line() {
     let sent: Vec<Vec<u8>> = rig.frames.iter().map(|frame| frame.0.clone()).collect();
     let of = |protocol: u8| sent.iter().filter(|frame| frame[23] == protocol).cloned().collect::<Vec<_>>();
     assert_eq!((of(17), of(1)), (datagrams, answers));
+}
+
+#[test]
+fn wave_of_the_end_of_a_datagram_at_equal_clocks() {
+    let mut rig = Rig::new(Stepper::new("ethernet_udp_port", UdpPort::new(), 1), PERIODS[0], 1);
+    let mut random = SplitMix64::new(2);
+    let payload: Vec<u8> = (60..78).collect();
+    let us = (DEVICE.mac, DEVICE.address, DEVICE.port);
+    let frame = sealed(udp(Party::random(&mut random), us, &payload, true));
+    let line = [vec![0x55; 7], vec![0xd5], frame].concat();
+    let block = &mut rig.pins;
+    let mut wave = Wave::default();
+    for clock in 0..line.len() + 14 {
+        let byte = line.get(clock);
+        block.set("rx_valid", byte.is_some());
+        block.set("rx_data", byte.copied().unwrap_or(0));
+        block.settle();
+        let valid = block.is("entry_valid");
+        block.set("entry_pop", valid);
+        block.settle();
+        if clock + 7 >= line.len() {
+            let entry = if valid { block.get("entry") } else { 0 };
+            let is_payload = clock + 4 < line.len();
+            let shown = |shows: bool, value: u128| if shows { Cell::Number(value) } else { Cell::Open };
+            wave.take(&[
+                ("rx_valid", Cell::Bit(byte.is_some())),
+                ("rx_data", shown(is_payload, byte.copied().unwrap_or(0).into())),
+                ("entry_valid", Cell::Bit(valid)),
+                ("entry[8]", if valid { Cell::Bit(entry >> 8 == 1) } else { Cell::Open }),
+                ("entry[7:0]", shown(valid, entry & 0xff)),
+            ]);
+        }
+        rise(block, [("port_clock", true), ("core_clock", true)]);
+    }
+    wave.assert_drawn_in("udp_port");
 }

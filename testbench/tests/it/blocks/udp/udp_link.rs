@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 use std::net::{Ipv4Addr, SocketAddrV4};
 
-use crate::rig::stepper::{named_ports, Stepper};
+use crate::rig::stepper::{named_ports, Cell, Stepper, Wave};
 use crate::rig::stream_rig::{Pins, Verilog};
 use incircle_blocks::QUICK_UDP_LINK;
 use incircle_hdl::udp::UdpLink;
@@ -434,4 +434,43 @@ fn a_session_that_ends_drops_the_datagram_under_way() {
         assert!(kinds.len() < 40);
     }
     assert!(rig.dropped > 0, "no datagram was under way");
+}
+
+#[test]
+fn wave_of_an_open_and_its_answer() {
+    let link = UdpLink::new(SMALL, QUICK_UDP_LINK).expect("a link");
+    let mut rig = Rig::new(Stepper::new("udp_link", link, 3), 3);
+    let open = ToDevice { session: SESSION, kind: HostDatagram::Open, number: 0, words: Vec::new() };
+    let sender: Vec<u8> = (20..32).collect();
+    let entries = [&sender[..], &open.to_bytes()].concat();
+    let mut wave = Wave::default();
+    let (mut sent, mut behind) = (0, 0);
+    for place in 0.. {
+        // An entry is there in every clock until the datagram has ended.
+        let entry = entries.get(place).map(|byte| u16::from(*byte)).or((place == entries.len()).then_some(0x101));
+        rig.pins.set("entry_valid", entry.is_some());
+        rig.pins.set("entry", entry.unwrap_or(0));
+        rig.pins.set("byte_ready", true);
+        rig.pins.settle();
+        let comes = rig.pins.is("byte_valid");
+        sent += usize::from(comes);
+        // The copying of the session, and most bytes of the answer, are left out.
+        let column = (place + 2).checked_sub(entries.len()).filter(|column| !(11..39).contains(column));
+        if column.is_some() && !(4..32).contains(&sent) {
+            wave.take(&[
+                ("entry_valid", Cell::Bit(entry.is_some())),
+                ("entry[8]", entry.map_or(Cell::Open, |entry| Cell::Bit(entry >> 8 == 1))),
+                ("core_reset", Cell::Bit(rig.pins.is("core_reset"))),
+                ("byte_valid", Cell::Bit(comes)),
+                ("byte_data", if comes && sent < 4 { Cell::Number(rig.pins.get("byte_data")) } else { Cell::Open }),
+                ("byte_is_last", if comes { Cell::Bit(rig.pins.is("byte_is_last")) } else { Cell::Open }),
+            ]);
+        }
+        behind += usize::from(sent == 32);
+        if behind > 2 {
+            break;
+        }
+        rig.edge();
+    }
+    wave.assert_drawn_in("udp_link");
 }
