@@ -195,9 +195,12 @@ impl SimDevice {
     /// device completes the file.
     ///
     /// # Errors
-    /// [`SimError::Trace`]: the device was not made by [`SimDevice::traced`], or the file cannot be created. If the
-    /// disk fills later, `send` and `receive` return the error.
+    /// [`SimError::NotTraced`]: the device was not made by [`SimDevice::traced`]. [`SimError::Trace`]: the file cannot be
+    /// created. If the disk fills later, `send` and `receive` return the error.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
+        if !self.model.description().can_trace() {
+            return Err(SimError::NotTraced { name: self.model.description().name() });
+        }
         Ok(self.model.trace_to(path)?)
     }
 
@@ -206,14 +209,17 @@ impl SimDevice {
     /// job begins; if the device is dropped before, there is none.
     ///
     /// # Errors
-    /// [`SimError::Trace`]: the device was not made by [`SimDevice::traced`]. If the file cannot be written, `send` and
-    /// `receive` return the error.
+    /// [`SimError::NotTraced`]: the device was not made by [`SimDevice::traced`]. [`SimError::NoJob`]: the number is 0.
+    /// If the file cannot be written, `send` and `receive` return the error.
     pub fn trace_job(&mut self, path: impl AsRef<Path>, number: u64) -> Result<(), SimError> {
         if !self.model.description().can_trace() {
-            return Err(TraceError::NotBuilt { model: self.model.description().name() }.into());
+            return Err(SimError::NotTraced { name: self.model.description().name() });
+        }
+        if number == 0 {
+            return Err(SimError::NoJob);
         }
         // All cores have the same layout of points.
-        let watch = JobWatch::new(number.max(1), Layout::of(CORE_COORD_BITS, 1));
+        let watch = JobWatch::new(number, Layout::of(CORE_COORD_BITS, 1));
         self.job_trace = Some(JobTrace { path: path.as_ref().to_owned(), watch, fault: None });
         Ok(())
     }

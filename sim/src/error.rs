@@ -82,6 +82,15 @@ pub enum SimError {
         /// Number of clocks since the device was made.
         total: u64,
     },
+    /// The core cannot write waveforms.
+    #[error("the simulated core {name} cannot write waveforms: make it by SimDevice::traced")]
+    NotTraced {
+        /// Name of the core.
+        name: &'static str,
+    },
+    /// There is no job number 0.
+    #[error("a waveform of job 0 was asked for: jobs count from 1")]
+    NoJob,
     /// The model has no port of the expected name.
     #[error(transparent)]
     Port(#[from] PortError),
