@@ -10,8 +10,8 @@
 //!
 //! Latency: 4 clocks from `begins` to the first byte.
 //!
-//! The last byte of an ARP request of 40:41:42:43:44:45 (decimal), the first four bytes of the answer, and the last two,
-//! which are padding. The clocks between are left out:
+//! The last byte of an ARP request of 40:41:42:43:44:45 (decimal), the first four bytes of the answer, and the last
+//! two, which are padding. The clocks between are left out:
 //! ```text
 //! head_valid      /^^\_____________________________________________________
 //! asks_address    ___/^^\__________________________________________________

@@ -6,8 +6,8 @@
 //! 3. Datagrams come as entries and go as bytes, as [`UdpPort`](crate::ethernet::UdpPort) describes them.
 //!
 //! The last entries of an `Open`, the reset of the core, and the first three bytes and the last byte of the answer. The
-//! sender's addresses begin with the bytes 20 to 22. Clocks are left out where the session is copied, and where the other
-//! bytes of the answer go out:
+//! sender's addresses begin with the bytes 20 to 22. Clocks are left out where the session is copied, and where the
+//! other bytes of the answer go out:
 //! ```text
 //! entry_valid     /^^^^^^^^\_______________________________________________
 //! entry[8]        ______/^^  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
