@@ -29,7 +29,7 @@ pub const MAX_DEVICE_DATAGRAM: usize = DATAGRAM_HEADER_BYTES + DATAGRAM_ANSWER_B
 pub const UDP_KEPT_WORDS: usize = 16_384;
 /// Number of words of the greeting of the UDP link, and of the words in a `Hello` to the device.
 pub const UDP_GREETING_WORDS: usize = 14;
-/// Number of answer words that a device keeps while they wait for their datagram.
+/// Number of answer words that the software model of the link keeps while they wait for their datagram.
 pub const UDP_ANSWER_WORDS: usize = 1024;
 
 /// The kind of a datagram to the device. The numbers are those of the serial link.

@@ -5,8 +5,8 @@
 //!    out, but for `is_sound`.
 //! 2. The roles of a place are those of all kinds of frames together, because the block does not know which kind the
 //!    frame is. All places from 63 on have the same roles.
-//! 3. `wanted`, `second` and `broadcast` hold the bytes that a frame for this device has at the place. They mean nothing
-//!    where no role compares the byte with them.
+//! 3. `wanted`, `second` and `broadcast` hold the bytes that a frame for this device has at the place. They mean
+//!    nothing where no role compares the byte with them.
 //!
 //! Latency: 1 clock.
 //!

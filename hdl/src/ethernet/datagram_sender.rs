@@ -7,8 +7,8 @@
 //!
 //! Latency: 21 clocks from `holds` to `waits`; 4 clocks from `begins` to the first byte.
 //!
-//! The last clock before `waits`, the first three bytes, and the last six of a datagram with a payload of two bytes. The
-//! clocks between are left out:
+//! The last clock before `waits`, the first three bytes, and the last six of a datagram with a payload of two bytes.
+//! The clocks between are left out:
 //! ```text
 //! holds           /^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^\___________
 //! waits           ___/^^\______________________________________

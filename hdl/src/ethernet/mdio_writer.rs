@@ -9,8 +9,8 @@
 //!
 //! Latency: 64 bits of 64 clocks for each write.
 //!
-//! The last two bits of a preamble, 01 for the start, 01 for a write, and the first bit of the address 5. A column is 16
-//! clocks:
+//! The last two bits of a preamble, 01 for the start, 01 for a write, and the first bit of the address 5. A column is
+//! 16 clocks:
 //! ```text
 //! mdc             ______/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^\_____/^^^^^
 //! mdio_out        /^^^^^^^^^^^^^^^^^^^^^^^\___________/^^^^^^^^^^^\___________/^^^^^^^^^^^\___________

@@ -5,13 +5,13 @@
 //! 2. An answer to ARP carries the device's addresses as the sender's; its target is the one who asked. An answer to an
 //!    echo request has the addresses swapped, type 0, and a check sum that is larger by 0x0800 in ones' complement. All
 //!    other bytes come back as they were, the time to live and the padding among them, up to the longest frame.
-//! 3. The check sum of an echo request is not checked: from a wrong one follows an answer with a wrong one.
+//! 3. The check sum of an echo request is not checked: a request with a wrong one gets an answer with a wrong one.
 //! 4. After `begins` a byte comes at every clock, until `byte_is_last`. `MacOut` says when the first one comes.
 //!
 //! Latency: 4 clocks from `begins` to the first byte.
 //!
-//! The last byte of an ARP request of 40:41:42:43:44:45 (decimal), the first four bytes of the answer, and the last two,
-//! which are padding. The clocks between are left out:
+//! The last byte of an ARP request of 40:41:42:43:44:45 (decimal), the first four bytes of the answer, and the last
+//! two, which are padding. The clocks between are left out:
 //! ```text
 //! head_valid      /^^\_____________________________________________________
 //! asks_address    ___/^^\__________________________________________________

@@ -2,8 +2,8 @@
 //!
 //! 1. The low half of a byte is on the pins at the rising edge and the high half at the falling edge behind it. The
 //!    control pin says "valid" at the rising edge and "valid, or else error" at the falling one.
-//! 2. With `INCIRCLE_ECP5` defined, `DELAY` taps of 25 ps, 0 to 127, delay data and control, where the PHY does not
-//!    delay its clock. The right number is a matter of the board.
+//! 2. With `INCIRCLE_ECP5` defined, the taps given to [`RgmiiIn::new`], 0 to 127 of 25 ps each, delay data and control,
+//!    for a PHY that does not delay its clock. The right number is a matter of the board.
 //!
 //! Latency: the byte whose first half is on the pins at an edge is given behind the next edge.
 //!

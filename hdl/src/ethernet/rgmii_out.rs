@@ -3,8 +3,8 @@
 //! 1. The low half of a byte is on the pins while the clock is high, the high half while the clock is low. The pin of
 //!    the clock follows the clock itself, so that something must delay it by about 2 ns: the PHY, the board, or the
 //!    pin.
-//! 2. With `INCIRCLE_ECP5` defined, `DELAY` taps of 25 ps, 0 to 127, delay the pin of the clock. The right number is a
-//!    matter of the board.
+//! 2. With `INCIRCLE_ECP5` defined, the taps given to [`RgmiiOut::new`], 0 to 127 of 25 ps each, delay the pin of the
+//!    clock. The right number is a matter of the board.
 //!
 //! Latency: a byte that is valid before an edge is on the pins behind the next edge.
 //!

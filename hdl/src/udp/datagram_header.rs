@@ -1,10 +1,10 @@
 //! The header of a datagram to the host, and the digest that goes with it, both as they were when the datagram began.
 //! [`FrameHeader`](crate::serial::FrameHeader) of the UDP link.
 //!
-//! 1. `starts` keeps the state. The bytes and the digest show it until the next `starts`. `kind` is not kept, so it must
-//!    stay while it is read.
-//! 2. The status says that a datagram was dropped if `drops` was high since the last `starts`. A datagram of a host that
-//!    is dropped in the very clock in which one to a host begins shows in the status of the next one.
+//! 1. `starts` keeps the state. The bytes and the digest show it until the next `starts`. `kind` is not kept, so it
+//!    must stay while it is read.
+//! 2. The status says that a datagram was dropped if `drops` was high since the last `starts`. A datagram of a host
+//!    that is dropped in the very clock in which one to a host begins shows in the status of the next one.
 //! 3. The free words of the FIFO go out as bytes, four for each.
 //!
 //! Latency: none (combinational) from `kind` and `index`; 1 clock from `starts`.

@@ -8,8 +8,8 @@
 //! 4. The registers have no reset of their own. They begin at 0, as those of an FPGA do. From other contents they come
 //!    to rest as well, but the first reset may then be shorter on the port's side.
 //!
-//! Latency: 3 clocks of the core from `reset` to `core_resets`, perhaps one more. With both clocks running, a short reset
-//! takes 14 to 16 clocks of the port and 9 to 12 of the core.
+//! Latency: 3 clocks of the core from `reset` to `core_resets`, perhaps one more. With both clocks running, a short
+//! reset takes 14 to 16 clocks of the port and 9 to 12 of the core.
 //!
 //! A reset of four clocks at equal clocks:
 //! ```text

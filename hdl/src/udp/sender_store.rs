@@ -44,7 +44,7 @@ pub struct SenderStore {
     pub read_index: Signal<In, HeadIndex>,
     pub read_data: Signal<Out, Byte>,
     questions: LutMemory<6, 8>,
-    /// Address, port and session of the open session, 16 bytes, to compare with.
+    /// Address, port and session of the open session, 14 bytes, to compare with.
     compared: LutMemory<4, 8>,
     session: LutMemory<5, 8>,
     /// The half of `questions` into which the incoming datagram is written.

@@ -19,7 +19,7 @@ crate::packed! {
         pub is_sound: bool,
         /// The datagram came to all devices.
         pub is_to_all: bool,
-        /// There are no words behind the header, or 14, or 1 to 360.
+        /// The number of words behind the header is 0 (`is_bare`), 14 (`is_greeting`) or 1 to 360 (`is_data`).
         pub is_bare: bool,
         pub is_greeting: bool,
         pub is_data: bool,

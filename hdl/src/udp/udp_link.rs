@@ -6,8 +6,8 @@
 //! 3. Datagrams come as entries and go as bytes, as [`UdpPort`](crate::ethernet::UdpPort) describes them.
 //!
 //! The last entries of an `Open`, the reset of the core, and the first three bytes and the last byte of the answer. The
-//! sender's addresses begin with the bytes 20 to 22. Clocks are left out where the session is copied, and where the other
-//! bytes of the answer go out:
+//! sender's addresses begin with the bytes 20 to 22. Clocks are left out where the session is copied, and where the
+//! other bytes of the answer go out:
 //! ```text
 //! entry_valid     /^^^^^^^^\_______________________________________________
 //! entry[8]        ______/^^  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .  .
@@ -57,8 +57,8 @@ pub struct UdpLink {
     pub core_reset: Signal<Out, Bit>,
     pub command: CommandSource,
     pub response: AnswerSink,
-    /// The device holds words of commands, or owes answers, that do not show in the streams. Only a chip of several
-    /// engines drives this port; with one engine it stays low.
+    /// The device holds words of commands, or owes answers, that do not show in the streams: those of other engines,
+    /// and those in the FIFO of answers.
     pub device_busy: Signal<In, Bit>,
     receiver: UdpReceiver,
     transmitter: UdpTransmitter,
@@ -117,8 +117,8 @@ impl Logic for UdpLink {
         self.command.data.next = self.receiver.command.data.val();
         self.receiver.command.ready.next = self.takes_command.val();
 
-        // Silence ends a session only while no datagram is being carried out, which might end it. A cable of Ethernet
-        // has no break, so that one never comes.
+        // Silence ends a session only while no datagram is being carried out, which might end it. Ethernet has no
+        // break, so `is_low` stays low.
         self.timers.is_low.next = false;
         self.timers.hears.next = self.receiver.asks.val().hears;
         self.has_failed.d.next = (self.timers.is_silent.val() | self.timers.is_broken.val())

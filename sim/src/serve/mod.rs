@@ -1,6 +1,7 @@
-//! A simulated board behind a pseudo-terminal, for any program that opens serial ports.
+//! Simulated devices for other programs: a board behind a pseudo-terminal, a device at a UDP port, and a board at a TAP
+//! device.
 //!
-//! Simulated time runs at most `1 / slow` times as fast as real time, which also spares the processor. When the line is
+//! **Behind a pseudo-terminal** simulated time runs at most `1 / slow` times as fast as real time, which also spares the processor. When the line is
 //! idle and the board is at rest (no session open, first rate set), passing time would change nothing, so simulated
 //! time stops until a byte comes.
 

@@ -14,7 +14,8 @@ use incircle_protocol::{answer_engine, answer_tag};
 
 use super::fault::UdpFault;
 
-/// Number of later datagrams after which an answer that they overtook counts as lost, on a device of one engine.
+/// Number of datagrams behind the one that overtook an answer after which the answer counts as lost, on a device of one
+/// engine.
 const OVERTAKEN: u32 = 3;
 
 /// A question whose answer is awaited.

@@ -12,6 +12,7 @@ use super::address::UdpAddress;
 use super::codec::{encode, Message};
 use super::fault::UdpFault;
 use super::greeting::checked_greeting;
+use super::loss::is_lost_on_the_way;
 use super::transport::{is_too_long, random};
 
 /// Number of greetings that are sent, since each may be lost.
@@ -31,9 +32,9 @@ pub struct Discovered {
 /// Greets all devices of the network at the usual port, and returns those that answer within `time`, in the order of
 /// their addresses. Two devices with one address both appear: their Ethernet addresses differ.
 ///
-/// The greeting goes to 255.255.255.255, which systems send out of the network that leads to the internet. `to` names
-/// other addresses to greet: the broadcast addresses of other networks, or single devices. Answers that are not those
-/// of a sound device are left out.
+/// The greeting goes to 255.255.255.255, which most systems send through the interface of the default route only. `to`
+/// names other addresses to greet: the broadcast addresses of other networks, or single devices. Answers that are not
+/// those of a sound device are left out.
 ///
 /// # Errors
 /// [`UdpFault::Network`] if the system refuses a socket, or to send to every one of the addresses.
@@ -45,11 +46,12 @@ pub fn discover(to: &[SocketAddrV4], time: Duration) -> Result<Vec<Discovered>, 
     let to = if to.is_empty() { &everyone } else { to };
     let number = random();
     let mut found: Vec<Discovered> = Vec::new();
-    for _ in 0..GREETINGS {
+    for round in 0..GREETINGS {
         let hello = encode(HostDatagram::Hello, 0, number, &[0; 4 * UDP_GREETING_WORDS]);
         let mut refusal = None;
         let sent = to.iter().filter(|to| socket.send_to(&hello, to).map_err(|error| refusal = Some(error)).is_ok());
-        if let (0, Some(error)) = (sent.count(), refusal) {
+        // A refusal in a later round loses a greeting, and not the devices that have answered.
+        if let (0, 0, Some(error)) = (round, sent.count(), refusal) {
             return Err(refused(error));
         }
         let until = Instant::now() + time / GREETINGS;
@@ -84,11 +86,12 @@ fn next(socket: &UdpSocket, until: Instant) -> io::Result<Option<(SocketAddr, Ve
     }
 }
 
-/// Whether an error leaves the others their chance to answer: a machine refuses the greeting, a datagram is too long,
-/// or a signal came.
+/// Whether an error leaves the others their chance to answer: a machine refuses the greeting, a datagram is too long or
+/// lost, or a signal came.
 fn is_of_one(error: &io::Error) -> bool {
     matches!(error.kind(), IoKind::Interrupted | IoKind::ConnectionRefused | IoKind::ConnectionReset)
         || is_too_long(error)
+        || is_lost_on_the_way(error)
 }
 
 /// The place of a device among those found: by address, then by port, then by Ethernet address.
@@ -127,7 +130,8 @@ mod tests {
 
     #[test]
     fn an_error_of_one_machine_does_not_end_the_search() {
-        for error in [IoKind::ConnectionReset.into(), io::Error::from_raw_os_error(10_040)] {
+        for error in [IoKind::ConnectionReset.into(), IoKind::NetworkDown.into(), io::Error::from_raw_os_error(10_040)]
+        {
             assert!(is_of_one(&error), "{error}");
         }
         assert!(!is_of_one(&IoKind::PermissionDenied.into()));

@@ -19,6 +19,7 @@ mod fault;
 mod greeting;
 pub(super) mod loss;
 pub(super) mod protocol;
+mod readable;
 mod reader;
 mod sender;
 mod transport;

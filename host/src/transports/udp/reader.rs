@@ -116,7 +116,8 @@ impl Reader {
         !self.units.is_empty()
     }
 
-    /// Whether every unit can be carried out on a device that has just been reset.
+    /// Whether every unit can be carried out on a device that has just been reset. All units behind the first begin
+    /// with a `Clear`, so the first decides.
     pub fn needs_no_memory(&self) -> bool {
         self.units.front().is_none_or(Unit::needs_no_memory)
     }

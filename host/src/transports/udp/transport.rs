@@ -11,6 +11,7 @@ use super::address::UdpAddress;
 use super::fault::UdpFault;
 use super::loss::is_lost_on_the_way;
 use super::protocol::{UdpParams, UdpProtocol, UdpStatistics};
+use super::readable::wait_readable;
 use super::unit::Answer;
 use crate::error::{Error, TransportError};
 use crate::transports::is_begun_as;
@@ -24,8 +25,6 @@ const BUFFER_SHARE: usize = 4;
 const BURST: usize = 64;
 /// Longest time in one call of the system.
 const LONGEST_WAIT: Duration = Duration::from_millis(100);
-/// Shortest time in one call of the system: a timeout of 0 would mean none.
-const SHORTEST_WAIT: Duration = Duration::from_micros(50);
 /// Time limit for closing the session.
 const GOODBYE: Duration = Duration::from_millis(100);
 
@@ -176,11 +175,8 @@ impl UdpTransport {
         if wait.is_zero() {
             return Ok(());
         }
-        self.socket.set_read_timeout(Some(wait.clamp(SHORTEST_WAIT, LONGEST_WAIT))).map_err(refused)?;
-        self.socket.set_nonblocking(false).map_err(refused)?;
-        let taken = self.take_one();
-        self.socket.set_nonblocking(true).map_err(refused)?;
-        taken.map(|_| ())
+        wait_readable(&self.socket, wait.min(LONGEST_WAIT)).map_err(refused)?;
+        self.take_one().map(|_| ())
     }
 }
 
@@ -259,6 +255,11 @@ impl Transport for UdpTransport {
 
     fn capabilities(&self) -> Capabilities {
         self.protocol.capabilities()
+    }
+
+    fn repeats(&self) -> u64 {
+        let UdpStatistics { repeated, restarted, .. } = self.statistics();
+        repeated + restarted
     }
 
     fn recover(&mut self, _deadline: Instant) -> Result<bool, TransportError> {

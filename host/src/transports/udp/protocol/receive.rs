@@ -19,10 +19,22 @@ impl UdpProtocol {
             return;
         };
         if message.header.session != self.session {
+            self.hear_old(&message, now);
             return;
         }
         if let Err(fault) = self.hear(&message, now) {
             self.fault.get_or_insert(fault);
+        }
+    }
+
+    /// Hears that the device has ended the session before the one that is being opened. It answers one datagram at a
+    /// time, so it may not have heard the `Open` that came behind the `Close`.
+    fn hear_old(&mut self, message: &Message<'_>, now: Duration) {
+        if let Stage::Opening { old, due, .. } = &mut self.stage {
+            let has_ended = matches!(message.header.kind, DeviceDatagram::Closed | DeviceDatagram::NoSession);
+            if has_ended && *old == Some(message.header.session) {
+                (*old, *due) = (None, now);
+            }
         }
     }
 

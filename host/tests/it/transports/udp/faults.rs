@@ -204,6 +204,41 @@ fn a_host_that_vanishes_in_mid_job_is_forgotten_and_the_next_one_served() {
     }
 }
 
+/// The host sends `Close` and `Open` together after a pause. A device answers one datagram at a time, so it drops the
+/// `Open` if both come before it has sent the answer to the first.
+#[test]
+fn a_session_opens_anew_behind_a_close_that_takes_the_place_of_the_open() {
+    let (network, _) = connect("", 8);
+    let mut network = network.borrow_mut();
+    let from = SocketAddrV4::new(Ipv4Addr::new(10, 0, 0, 9), 1);
+    let mut host = UdpProtocol::new(UdpParams::of_random(98));
+    // All that the host has to say arrives, and only then the device answers.
+    let mut exchange = |host: &mut UdpProtocol, now: Duration| {
+        let mut out = Vec::new();
+        host.transmit(now, &mut out);
+        out.iter().for_each(|datagram| network.board.take(from, false, datagram));
+        network.board.work(1_000_000);
+        while let Some((_, datagram)) = network.board.give() {
+            host.receive(&datagram, now);
+        }
+        out.len()
+    };
+    let greets = |host: &mut UdpProtocol, now| host.ask(&[Command::Hello], now).expect("no fault");
+    greets(&mut host, Duration::ZERO);
+    for microsecond in 0..100_000 {
+        exchange(&mut host, Duration::from_micros(microsecond));
+        if host.take_answer().is_some() {
+            break;
+        }
+    }
+    assert!(host.is_open());
+    let later = Duration::from_millis(1500);
+    greets(&mut host, later);
+    assert_eq!((exchange(&mut host, later), host.is_open()), (2, false), "`Close`, and an `Open` that is dropped");
+    assert_eq!((exchange(&mut host, later), host.is_open()), (1, true), "`Open` follows at once");
+    assert!(host.check().is_ok());
+}
+
 #[test]
 fn a_pause_costs_no_job() {
     let (network, mut device) = connect("", 7);
@@ -229,7 +264,7 @@ fn a_cable_that_is_pulled_ends_the_job_with_a_sentence() {
     assert!(matches!(fault_of(&error), Some(UdpFault::Silent { .. })), "{error}");
 }
 
-/// Random datagrams, and datagrams of the host with changes, from a stranger and from the address of the host.
+/// Random datagrams from a stranger: of any length, and those with a right check sum and a whole number of words.
 #[test]
 fn hostile_datagrams_do_not_stop_the_device() {
     let (network, mut device) = connect("", 10);

@@ -17,8 +17,8 @@ fn idle(block: &mut Stepper<MacOut>) {
     block.set("reset", false);
 }
 
-/// Sends the frames, which wait for `pauses` clocks each. Returns what the line shows from the first byte on, in each
-/// clock a byte or nothing, and in which of the clocks a frame's last byte was taken.
+/// Sends the frames, each after the clocks that `pause` gives for it. Returns what the line shows from the first byte
+/// on, in each clock a byte or nothing.
 fn send(block: &mut Stepper<MacOut>, frames: &[Vec<u8>], mut pause: impl FnMut() -> u64) -> Vec<Option<u8>> {
     let mut line = Vec::new();
     for frame in frames {
