@@ -31,8 +31,8 @@ pub struct TapFigures {
 pub enum TapError {
     /// The system refuses the TAP device.
     #[error(
-        "the system refuses the TAP device \"{name}\" ({source}): make it with `ip tuntap add dev NAME mode tap user \
-         $USER`, which needs root, and end other programs that use it"
+        "the system refuses the TAP device \"{name}\" ({source}): make it with `ip tuntap add dev NAME mode tap`, \
+         which needs root, with `user NAME` behind it for another user, and end other programs that use it"
     )]
     Open {
         /// Name of the interface.

@@ -5,10 +5,10 @@ use std::time::Duration;
 
 use incircle::pcie::{self, CardInfo, PcieTransport};
 use incircle::serial::{self, Address, PortInfo};
-use incircle::udp;
+use incircle::{udp, Identity};
 
 use crate::arguments::DevicesArguments;
-use crate::failure::{printable, Exit, Failure};
+use crate::failure::{counted, printable, Exit, Failure};
 use crate::output;
 
 /// Time for the answer at a port. A device that a killed program left at a high rate answers after two seconds.
@@ -54,12 +54,20 @@ fn list_network(to: SocketAddrV4) -> Result<(), Failure> {
             (device.greeting.identity, device.greeting.mac.map(|byte| format!("{byte:02x}")).join(":"));
         let state = if device.is_busy { ", busy" } else { "" };
         output::print(&printable(&format!(
-            "{} ({mac}): incircle, {} points of {} bits, {} insertions at once{state}",
-            device.address, identity.capacity, identity.coord_bits, identity.contexts
+            "{} ({mac}): incircle, {} points of {} bits, {} at once{state}",
+            device.address,
+            identity.capacity,
+            identity.coord_bits,
+            insertions_of(&identity)
         )))?;
         output::print("\n")?;
     }
     Ok(())
+}
+
+/// How many insertions a device has in progress at a time, in words.
+fn insertions_of(identity: &Identity) -> String {
+    counted(identity.contexts as usize, "insertion")
 }
 
 /// The description of a card by its registers, or the reason why it has none.
@@ -68,8 +76,11 @@ fn greet_card(card: &CardInfo) -> String {
         Ok(registers) => {
             let identity = registers.identity;
             format!(
-                "incircle, {} points of {} bits, {} insertions at once, beats of {} bits",
-                identity.capacity, identity.coord_bits, identity.contexts, registers.beat_bits
+                "incircle, {} points of {} bits, {} at once, beats of {} bits",
+                identity.capacity,
+                identity.coord_bits,
+                insertions_of(&identity),
+                registers.beat_bits
             )
         }
         Err(error) => error.to_string(),
@@ -82,8 +93,11 @@ fn greet(port: &PortInfo) -> String {
         Ok(greeting) => {
             let identity = greeting.identity;
             format!(
-                "incircle, {} points of {} bits, {} insertions at once, up to {} bits per second",
-                identity.capacity, identity.coord_bits, identity.contexts, greeting.max_rate
+                "incircle, {} points of {} bits, {} at once, up to {} bits per second",
+                identity.capacity,
+                identity.coord_bits,
+                insertions_of(&identity),
+                greeting.max_rate
             )
         }
         Err(error) => error.to_string(),

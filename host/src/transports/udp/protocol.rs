@@ -112,6 +112,8 @@ pub struct UdpProtocol {
     statistics: UdpStatistics,
     /// Datagrams sent again in earlier sessions.
     resent_before: u64,
+    /// Whether the device has opened a session for this host before.
+    has_served: bool,
 }
 
 impl UdpProtocol {
@@ -133,6 +135,7 @@ impl UdpProtocol {
             polled: None,
             statistics: UdpStatistics::default(),
             resent_before: 0,
+            has_served: false,
         }
     }
 

@@ -76,6 +76,7 @@ impl UdpProtocol {
         self.sender = Sender::default();
         self.reader.begin_session(layout, engines);
         (self.polled, self.stage) = (None, Stage::Open);
+        self.has_served = true;
         (self.last_heard, self.last_said) = (now, now);
         self.trips.shorten();
     }

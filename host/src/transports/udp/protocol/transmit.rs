@@ -102,8 +102,12 @@ impl UdpProtocol {
         let limit = self.silence + SILENCE_SLACK;
         if now >= since + limit {
             let milliseconds = milliseconds(limit);
-            self.fault =
-                Some(if was_busy { UdpFault::Busy { milliseconds } } else { UdpFault::Silent { milliseconds } });
+            self.fault = Some(match (was_busy, self.has_served) {
+                (true, _) => UdpFault::Busy { milliseconds },
+                // The address is right: the device has answered before.
+                (false, true) => UdpFault::Lost { milliseconds },
+                (false, false) => UdpFault::Silent { milliseconds },
+            });
             return;
         }
         out.extend(old.map(|old| encode(HostDatagram::Close, 0, old, &[])));
