@@ -10,6 +10,7 @@ mod clock {
     mod batch;
     mod by_command;
     mod defects;
+    mod deletions;
     mod hang;
     mod orders;
     mod questions;
