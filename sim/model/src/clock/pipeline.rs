@@ -45,7 +45,7 @@ impl Visit {
     }
 
     pub(super) fn is_outside_root(&self) -> bool {
-        self.locks && self.rotates && self.entry == 0
+        self.is_root()
     }
 
     /// Whether this is a root visit, which takes a lock and turns no record.
