@@ -39,13 +39,9 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    /// Whether this is the visit of a record outside a star, in a run of deletions; and that outside its root.
+    /// Whether this is the visit of a record outside a star, in a run of deletions.
     pub(super) fn is_outside_star(&self) -> bool {
         self.locks && self.rotates && (self.entry == 0 || self.after == OUTSIDE)
-    }
-
-    pub(super) fn is_outside_root(&self) -> bool {
-        self.is_root()
     }
 
     /// Whether this is a root visit, which takes a lock and turns no record.

@@ -1,15 +1,17 @@
 //! Runs on the core: the living engine works while the insertion engine rests, and has the memories and both channels.
 
 use super::command_port::State as CommandState;
+use super::holes::Holes;
 use super::living::{LivingDefect, LivingEngine, RunCounts, Signals, Signature, Standing};
 use super::memory::Write;
 use super::pipeline::Completion;
 use super::ports::{Inputs, Outputs};
-use super::holes::Holes;
 use super::questions::{Events, ItemEnd, Launch, Questions, Signals as QuestionSignals};
 use super::wires::{Registers, Wires};
 use super::ClockModel;
-use incircle_protocol::{command_opcode, ConfigError, Opcode, Outcome, RunKind, CORE_RUNS, FEATURE_RUNS, MAX_DELETE_RING};
+use incircle_protocol::{
+    command_opcode, ConfigError, Opcode, Outcome, RunKind, CORE_RUNS, FEATURE_RUNS, MAX_DELETE_RING,
+};
 
 impl ClockModel {
     /// The same core with the commands for a mesh that stands, the runs, which its identity then offers.
@@ -177,12 +179,10 @@ impl ClockModel {
             let end = end(outcome.context, wires.done.filter(|_| outcome.duplicate && !deletes));
             ItemEnd { refused: Some(Outcome::ManyNeighbors).filter(|_| deletes), ..end }
         });
-        let fill_ends = wires.fill_end.map(|fill| {
-            ItemEnd { refused: Some(Outcome::Flat).filter(|_| fill.is_flat), ..end(fill.context, None) }
-        });
-        // The record outside the root of a star stays, but the root may become free.
-        let is_root = |done: &Completion| if deletes { done.visit.is_outside_root() } else { done.visit.is_root() };
-        let root = wires.done.filter(|done| wires.outcome.is_some() && is_root(done));
+        let fill_ends = wires
+            .fill_end
+            .map(|fill| ItemEnd { refused: Some(Outcome::Flat).filter(|_| fill.is_flat), ..end(fill.context, None) });
+        let root = wires.done.filter(|done| wires.outcome.is_some() && done.visit.is_root());
         let solo_ends = wires.solo_ends.then(|| {
             let duplicate = if wires.solo_inserts { None } else { was.solo.last_visit() };
             end(was.solo.context(), duplicate)

@@ -64,14 +64,7 @@ impl Fill {
         self.arrival = Some((context, hole));
     }
 
-    pub(super) fn clock(
-        &mut self,
-        pushes: bool,
-        ends: bool,
-        holes: &mut [Hole],
-        writer: &mut Writer,
-        memory: &Memory,
-    ) {
+    pub(super) fn clock(&mut self, pushes: bool, ends: bool, holes: &mut [Hole], writer: &mut Writer, memory: &Memory) {
         self.queue.extend(self.arrival.take());
         if self.work.is_none() {
             self.work = self.queue.pop_front().map(|(context, hole)| Work::Begin(context, hole));

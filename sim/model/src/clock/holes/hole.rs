@@ -56,7 +56,8 @@ impl Hole {
     pub(super) fn of(star: &Star, state: &Attempt, places: usize) -> Self {
         let end = star.infinite.unwrap_or(star.last);
         let is_dry = star.infinite.is_some() && !star.has_triangle_outside;
-        let hole = Self { first: star.first, last: star.last, places, end, is_dry, locks: state.logged, ..Self::default() };
+        let hole =
+            Self { first: star.first, last: star.last, places, end, is_dry, locks: state.logged, ..Self::default() };
         hole.whole()
     }
 

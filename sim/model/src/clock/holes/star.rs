@@ -160,8 +160,7 @@ impl Outcome {
             state.drains = true;
             star.is_too_long = true;
         } else {
-            let first =
-                Visit { entry: (visit.entry + step) % PLACES, after: visit.entry, record: next, ..around_star };
+            let first = Visit { entry: (visit.entry + step) % PLACES, after: visit.entry, record: next, ..around_star };
             self.push = Some(Bundle::pair(first, OUTSIDE, outside));
             state.outstanding += 2;
             state.count += 1;

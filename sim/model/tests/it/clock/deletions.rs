@@ -5,8 +5,7 @@ use crate::living::scripts::Script;
 use incircle_model::ClockModel;
 use incircle_protocol::{Config, ConfigError, RunKind, TINY};
 
-const KINDS: [RunKind; 5] =
-    [RunKind::Locate, RunKind::Nearest, RunKind::InsertAs, RunKind::Delete, RunKind::Delete];
+const KINDS: [RunKind; 5] = [RunKind::Locate, RunKind::Nearest, RunKind::InsertAs, RunKind::Delete, RunKind::Delete];
 
 fn core(config: Config) -> ClockModel {
     ClockModel::new(config).expect("a core that can be built").with_deletions().expect("a list that is short enough")

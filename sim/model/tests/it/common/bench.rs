@@ -150,14 +150,6 @@ impl Bench {
             self.core.clock(inputs);
             self.clocks += 1;
             if self.clocks > last {
-                if std::env::var("DBG").is_ok() {
-                    for _ in 0..60 {
-                        let v: Vec<_> = self.core.visits().collect();
-                        eprintln!("{v:?} {:?}", self.core.outputs().write);
-                        for w in v { eprintln!("   {:?}", self.core.record(w.record)); }
-                        self.core.clock(Inputs { reset: false, command_valid: false, command_data: 0, response_ready: true });
-                    }
-                }
                 return Err(Hang(self.core.describe()));
             }
         }

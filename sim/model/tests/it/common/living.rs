@@ -25,8 +25,7 @@ pub enum Fault {
 }
 
 impl From<Hang> for Fault {
-    fn from(hang: Hang) -> Self {
-        eprintln!("{}", hang.0);
+    fn from(_: Hang) -> Self {
         Self::Hang
     }
 }
@@ -34,10 +33,13 @@ impl From<Hang> for Fault {
 impl Pair {
     pub fn new(config: Config, defect: Option<LivingDefect>) -> Self {
         let core = ClockModel::new(config).expect("a core that can be built");
-        Self::of(config, match defect {
-            Some(rule) => core.with_runs_without(rule),
-            None => core.with_runs(),
-        })
+        Self::of(
+            config,
+            match defect {
+                Some(rule) => core.with_runs_without(rule),
+                None => core.with_runs(),
+            },
+        )
     }
 
     /// This core and the model by commands.

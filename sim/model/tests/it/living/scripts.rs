@@ -104,7 +104,6 @@ impl Script {
             }
         }
         let changes = kind.is_change();
-        if std::env::var("DBG").is_ok() { eprintln!("{kind:?} {items:x?} {:x?} ctx {} ring {} points {}", pair.points, self.contexts, self.ring, self.points); }
         pair.run(kind, &items, self.stalls, &mut self.random)?;
         if changes {
             pair.check()?;
