@@ -19,7 +19,8 @@ pub(super) fn wait_readable(socket: &UdpSocket, wait: Duration) -> io::Result<()
 
     let mut asked = libc::pollfd { fd: socket.as_raw_fd(), events: libc::POLLIN, revents: 0 };
     let seconds = libc::time_t::try_from(wait.as_secs()).unwrap_or(libc::time_t::MAX);
-    let nanoseconds = libc::c_long::try_from(wait.subsec_nanos()).unwrap_or_default();
+    // Below 10^9, so it fits a `c_long` of 32 bits, too.
+    let nanoseconds = wait.subsec_nanos() as libc::c_long;
     let limit = libc::timespec { tv_sec: seconds, tv_nsec: nanoseconds };
     // SAFETY: both structures live until the call returns, the list has one entry, and no mask of signals is given.
     let result = unsafe { libc::ppoll(&raw mut asked, 1, &raw const limit, std::ptr::null()) };

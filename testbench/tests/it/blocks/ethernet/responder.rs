@@ -113,7 +113,7 @@ impl Rig {
 /// A frame that asks, and what it asks for.
 fn question(random: &mut SplitMix64, run: usize) -> (Vec<u8>, Asks) {
     let host = Party::random(random);
-    let longest = if run % 10 == 0 { 1473 } else { 90 };
+    let longest = if run.is_multiple_of(10) { 1473 } else { 90 };
     let payload: Vec<u8> = (0..random.below(longest)).map(|_| random.below(256) as u8).collect();
     match run % 3 {
         0 => (sealed(arp(host, [ALL, DEVICE.mac][run % 2], DEVICE.address)), Asks::Address),

@@ -39,7 +39,8 @@ fn datagram(random: &mut SplitMix64, parts: &[(u32, usize)], answer: &mut Vec<u8
         };
         for place in 0..*count {
             let given = random.below(256) as u8;
-            let sent = if [SUM, DIGEST].contains(part) { sums[place] } else { given };
+            let sum = sums.get(place).filter(|_| [SUM, DIGEST].contains(part));
+            let sent = sum.copied().unwrap_or(given);
             if *part == WORDS {
                 answer.push(sent);
             }
