@@ -140,6 +140,7 @@ impl Logic for HoleFill {
         self.end.next.valid = self.ends_now.val();
         self.end.next.context = self.current.val().context;
         self.end.next.is_flat = self.hole_now.val().is_dry;
+        self.end.next.vertex = self.vertices.read_data.val();
         self.end.next.locks = self.hole_now.val().locks;
 
         self.vertices.write_address.next = self.taker.val();

@@ -33,7 +33,7 @@ use super::star_store::StarStore;
 use super::star_visits::StarVisits;
 use crate::engine::types::{
     Bundle, Committed, Completion, Entry, FillEnd, Follow, Hole, HoleOf, KeptWrite, LockWrite, Outcome,
-    Push, ReleaseJob, ReleaseRequest, RingCount, Star, Start, TestVertices, Turned, Upcoming, VertexId, Visit, Write,
+    ReleaseJob, ReleaseRequest, RingCount, Star, Start, TestVertices, Turned, Upcoming, VertexId, Visit, Write,
 };
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -70,7 +70,8 @@ pub struct Holes {
     pub lock: Signal<Out, LockWrite>,
     pub releases: Signal<Out, ReleaseRequest>,
     /// A test that is asked for, and whether it enters the queue at this edge.
-    pub push: Signal<Out, Push>,
+    pub push: Signal<Out, Bundle>,
+    pub push_valid: Signal<Out, Bit>,
     pub pushes: Signal<In, Bit>,
     /// The item that ends, if `may_end`.
     pub end: Signal<Out, FillEnd>,
@@ -221,8 +222,8 @@ impl Logic for Holes {
         self.bundle.next.second_after = 0.into();
         self.bundle.next.second_record = 0.into();
         self.bundle.next.third_record = 0.into();
-        self.push.next.valid = self.fill.asks.val();
-        self.push.next.bundle = self.bundle.val();
+        self.push_valid.next = self.fill.asks.val();
+        self.push.next = self.bundle.val();
 
         // M3: the record outside, which is locked, becomes an entry of the ring.
         self.entry.next.first_vertex = self.turned.val().v2;

@@ -4,6 +4,7 @@
 //! ([`StarCase`], [`StarStep`]); M6, M8 ([`HoleWriter`]).
 
 mod hole_fill;
+mod hole_merge;
 mod hole_ring;
 mod hole_step;
 mod hole_writer;
@@ -18,6 +19,7 @@ mod star_store;
 mod star_visits;
 
 pub use hole_fill::{FillState, HoleFill};
+pub use hole_merge::HoleMerge;
 pub use hole_ring::HoleRing;
 pub use hole_step::HoleStep;
 pub use hole_writer::HoleWriter;

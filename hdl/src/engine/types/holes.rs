@@ -116,6 +116,7 @@ crate::packed! {
         pub valid: bool,
         pub context: ContextId,
         pub is_flat: bool,
+        pub vertex: VertexId,
         pub locks: LockCount,
     }
 

@@ -31,27 +31,18 @@ impl ClockModel {
     }
 
     /// The same core with the runs that the hardware has so far, which its identity then offers: `Locate`,
-    /// `Interpolate`, `Nearest` and `InsertAs`.
+    /// `Interpolate`, `Nearest`, `InsertAs` and `Delete`.
+    ///
+    /// # Panics
+    /// The boundary list is longer than [`MAX_DELETE_RING`]: the hardware refuses such a core.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
+        assert!(self.config.ring <= MAX_DELETE_RING, "{}", ConfigError::RingForDeletions(self.config.ring));
         self.registers.features |= CORE_RUNS;
+        self.registers.skips_free = true;
         self.questions = Some(Questions::new(self.config));
+        self.holes = Some(Holes::new(self.config.contexts as usize));
         self
-    }
-
-    /// The same core with these runs and `Delete`.
-    ///
-    /// # Errors
-    /// The list of a context has more entries than places of a star can be told apart.
-    pub fn with_deletions(self) -> Result<Self, ConfigError> {
-        if self.config.ring > MAX_DELETE_RING {
-            return Err(ConfigError::RingForDeletions(self.config.ring));
-        }
-        let mut core = self.with_questions();
-        core.registers.features |= RunKind::Delete.feature();
-        core.registers.skips_free = true;
-        core.holes = Some(Holes::new(core.config.contexts as usize));
-        Ok(core)
     }
 
     /// Forgets all runs.

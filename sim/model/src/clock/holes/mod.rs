@@ -53,7 +53,8 @@ impl Holes {
 
     /// The item that ends at this edge if no other one does.
     pub(super) fn end_request(&self) -> Option<FillEnd> {
-        self.fill.end_request()
+        // Its last job must find room.
+        self.fill.end_request().filter(|_| !self.writer.is_full())
     }
 
     /// The deletion whose last record is written at this edge.

@@ -3,12 +3,12 @@
 use crate::common::living::{Fault, Pair};
 use crate::living::scripts::Script;
 use incircle_model::ClockModel;
-use incircle_protocol::{Config, ConfigError, RunKind, TINY};
+use incircle_protocol::{Config, RunKind};
 
 const KINDS: [RunKind; 5] = [RunKind::Locate, RunKind::Nearest, RunKind::InsertAs, RunKind::Delete, RunKind::Delete];
 
 fn core(config: Config) -> ClockModel {
-    ClockModel::new(config).expect("a core that can be built").with_deletions().expect("a list that is short enough")
+    ClockModel::new(config).expect("a core that can be built").with_questions()
 }
 
 fn run(seeds: std::ops::Range<u32>) {
@@ -35,10 +35,4 @@ fn hundreds_of_scripts_agree_with_the_model_by_commands() {
 fn many_scripts_agree_with_the_model_by_commands() {
     let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
     run(1000..1000 + scripts.unwrap_or(10_000));
-}
-
-#[test]
-fn a_list_that_is_too_long_is_refused() {
-    let core = ClockModel::new(Config { ring: 33, ..TINY }).expect("a core that can be built");
-    assert_eq!(core.with_deletions().err(), Some(ConfigError::RingForDeletions(33)));
 }
