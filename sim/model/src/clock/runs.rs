@@ -63,13 +63,13 @@ impl ClockModel {
         now.deleted += u32::from(wires.erased.is_some());
         now.kept = now.kept + u32::from(wires.erased.is_some()) - back;
         if let Some(holes) = &mut self.holes {
-            now.filled = holes.write();
             holes.clock(
                 wires.outcome.as_ref().filter(|_| wires.deletes),
                 wires.fill_push.is_some(),
                 wires.fill_end.is_some(),
                 &mut self.memory,
             );
+            now.filled = holes.write();
         }
         if was.command.clears {
             (now.deleted, now.kept) = (0, 0);
