@@ -86,6 +86,21 @@ impl Logic for RecordReads {
 
         self.asks.next =
             self.runs.val() & self.some_are_left.q.val() & self.stream.has_room.val() & (!self.pauses.q.val());
+        for i in 0..self.living.len() {
+            self.living[i].clock.next = self.clock.val();
+            self.living[i].infinite.next = self.infinite[i].val();
+            self.living[i].starts.next = self.starts.val();
+            self.living[i].first.next = self.first.val();
+            self.living[i].count.next = self.count.val();
+            self.living[i].comes.next = self.read_done.val() & self.vertices_alone.q.val();
+            self.living[i].record.next = self.record.val();
+            if self.vertices_alone.q.val() {
+                self.asks.next = self.runs.val()
+                    & self.living[i].some_are_left.val()
+                    & self.stream.has_room.val()
+                    & (!self.pauses.q.val());
+            }
+        }
         self.read.next = self.asks.val();
         self.read_id.next = self.record_id.q.val();
         self.pauses.d.next = self.asks.val() & self.is_second.q.val() & (!self.vertices_alone.q.val());
@@ -112,18 +127,7 @@ impl Logic for RecordReads {
         self.stream.record.next = self.record.val();
 
         for i in 0..self.living.len() {
-            self.living[i].clock.next = self.clock.val();
-            self.living[i].infinite.next = self.infinite[i].val();
-            self.living[i].starts.next = self.starts.val();
-            self.living[i].first.next = self.first.val();
-            self.living[i].count.next = self.count.val();
-            self.living[i].comes.next = self.read_done.val() & self.vertices_alone.q.val();
-            self.living[i].record.next = self.record.val();
             if self.vertices_alone.q.val() {
-                self.asks.next = self.runs.val()
-                    & self.living[i].some_are_left.val()
-                    & self.stream.has_room.val()
-                    & (!self.pauses.q.val());
                 self.stream.comes.next = self.living[i].counts.val();
                 if self.starts.val() {
                     self.record_id.d.next = 0.into();

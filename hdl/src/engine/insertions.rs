@@ -246,9 +246,9 @@ impl Logic for Insertions {
             self.merge[i].hole_outcome.next = self.holes[i].outcome.val();
             self.merge[i].lock.next = self.attempts.lock.val();
             self.merge[i].hole_lock.next = self.holes[i].lock.val();
-            self.merge[i].release.next = self.attempts.releases.val();
+            self.merge[i].attempt_release.next = self.attempts.releases.val();
             self.merge[i].hole_release.next = self.holes[i].releases.val();
-            self.merge[i].end.next = self.holes[i].end.val();
+            self.merge[i].ending.next = self.holes[i].ending.val();
             self.merge[i].erased.next = self.holes[i].erased.val();
             self.merge[i].starts.next = self.dispatcher.start.val().valid;
             self.merge[i].asks.next = self.holes[i].push_valid.val();
@@ -288,6 +288,7 @@ impl Logic for Insertions {
                 self.visit_events.next.aborts = self.merge[i].aborts.val();
                 self.visit_events.next.revisit = self.merge[i].revisits.val();
             }
+            self.events.next.visits = self.visit_events.val();
         }
     }
 }

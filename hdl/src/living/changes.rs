@@ -99,6 +99,7 @@ impl Logic for Changes {
         self.late.reset.next = self.reset.val();
         self.check.clears.next = self.clears.val();
         self.late.clears.next = self.clears.val();
+        self.deletes.next = self.is_active.val() & self.is_delete.val();
         self.runs.next = self.is_active.val() & self.is_change.val();
         self.has_changed.next = self.changed.q.val();
         self.item.next = self.launch.val().item;
@@ -141,7 +142,6 @@ impl Logic for Changes {
             self.queued.next = self.check.offered.val();
         }
 
-        self.deletes.next = self.is_active.val() & self.is_delete.val();
         self.step.is_delete.next = self.deletes.val();
         self.step.runs.next = self.is_active.val() & self.is_change.val();
         self.step.events.next = self.events.val();

@@ -148,7 +148,7 @@ impl Logic for ContextFlags {
             (self.state.q.val().retrying | self.tries.val()) & (!(self.starting.val() | self.solo_ended.val()));
         self.state.d.next.busy = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
         for i in 0..self.fill.len() {
-            self.fill[i].end.next = self.fill_end[i].val();
+            self.fill[i].ending.next = self.fill_end[i].val();
             self.fill[i].asleep.next = (self.sleeping.val() | self.falls_asleep.val()) & (!self.starting.val());
             self.fill[i].busy.next = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
             self.state.d.next.asleep = self.fill[i].asleep_after.val();
@@ -165,7 +165,7 @@ impl Logic for ContextFlags {
             self.state.d.next.retrying = 0.into();
             self.state.d.next.busy = 0.into();
             for i in 0..self.fill.len() {
-            self.fill[i].end.next = self.fill_end[i].val();
+            self.fill[i].ending.next = self.fill_end[i].val();
             self.fill[i].asleep.next = (self.sleeping.val() | self.falls_asleep.val()) & (!self.starting.val());
             self.fill[i].busy.next = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
             self.state.d.next.asleep = self.fill[i].asleep_after.val();

@@ -7,7 +7,7 @@ use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
 pub struct FillFlags {
-    pub end: Signal<In, FillEnd>,
+    pub ending: Signal<In, FillEnd>,
     pub asleep: Signal<In, ContextSet>,
     pub busy: Signal<In, ContextSet>,
     pub asleep_after: Signal<Out, ContextSet>,
@@ -21,9 +21,9 @@ impl Logic for FillFlags {
     #[hdl_gen]
     fn update(&mut self) {
         self.one.next = 1.into();
-        self.wide.next = bit_cast::<24, 5>(self.end.val().context);
+        self.wide.next = bit_cast::<24, 5>(self.ending.val().context);
         self.ended.next = 0.into();
-        if self.end.val().valid {
+        if self.ending.val().valid {
             self.ended.next = self.one.val() << self.wide.val();
         }
         self.asleep_after.next = self.asleep.val() | self.ended.val();

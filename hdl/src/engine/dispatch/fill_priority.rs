@@ -7,7 +7,7 @@ use rust_hdl_core::prelude::*;
 
 #[derive(LogicBlock, Default)]
 pub struct FillPriority {
-    pub end: Signal<In, FillEnd>,
+    pub ending: Signal<In, FillEnd>,
     pub held: Signal<In, Priority>,
     pub returns: Signal<Out, Bit>,
 }
@@ -16,6 +16,6 @@ impl Logic for FillPriority {
     #[hdl_gen]
     fn update(&mut self) {
         self.returns.next =
-            self.end.val().valid & self.held.val().is_held & (self.held.val().context == self.end.val().context);
+            self.ending.val().valid & self.held.val().is_held & (self.held.val().context == self.ending.val().context);
     }
 }

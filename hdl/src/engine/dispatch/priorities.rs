@@ -119,7 +119,7 @@ impl Logic for Priorities {
             & self.held.value.val().is_held
             & (self.held.value.val().context == self.outcome.val().context);
         for i in 0..self.fill.len() {
-            self.fill[i].end.next = self.fill_end[i].val();
+            self.fill[i].ending.next = self.fill_end[i].val();
             self.fill[i].held.next = self.held.value.val();
             if self.fill[i].returns.val() {
                 self.returns.next = true;

@@ -43,7 +43,7 @@ pub struct HoleFill {
     pub hole: Signal<Out, HoleOf>,
     pub pushes: Signal<In, Bit>,
     /// The item that ends, if `ends` allows it.
-    pub end: Signal<Out, FillEnd>,
+    pub ending: Signal<Out, FillEnd>,
     pub may_end: Signal<In, Bit>,
     /// A triangle, or the end of a deletion, for the writer, which takes no more while `is_full`.
     pub job: Signal<Out, FillRequest>,
@@ -137,11 +137,11 @@ impl Logic for HoleFill {
         self.asks.next = self.state.q.val() == FillState::Push;
         self.hole.next = self.work.q.val();
         self.ends_now.next = (self.state.q.val() == FillState::End) & (!self.is_full.val());
-        self.end.next.valid = self.ends_now.val();
-        self.end.next.context = self.current.val().context;
-        self.end.next.is_flat = self.hole_now.val().is_dry;
-        self.end.next.vertex = self.vertices.read_data.val();
-        self.end.next.locks = self.hole_now.val().locks;
+        self.ending.next.valid = self.ends_now.val();
+        self.ending.next.context = self.current.val().context;
+        self.ending.next.is_flat = self.hole_now.val().is_dry;
+        self.ending.next.vertex = self.vertices.read_data.val();
+        self.ending.next.locks = self.hole_now.val().locks;
 
         self.vertices.write_address.next = self.taker.val();
         self.vertices.write_data.next = self.taken.val();
@@ -157,7 +157,7 @@ impl Logic for HoleFill {
         self.given.next.vertex = self.vertices.read_data.val();
         self.given.next.locks = self.hole_now.val().locks;
         if self.state.q.val() == FillState::End {
-            self.given.next.i = self.interval.begin.val();
+            self.given.next.i = self.interval.start.val();
             self.given.next.m = self.interval.second.val();
             self.given.next.j = self.hole_now.val().end;
             self.given.next.base = 0.into();

@@ -23,14 +23,14 @@ pub struct HoleMerge {
     pub hole_outcome: Signal<In, Outcome>,
     pub lock: Signal<In, LockWrite>,
     pub hole_lock: Signal<In, LockWrite>,
-    pub release: Signal<In, ReleaseRequest>,
+    pub attempt_release: Signal<In, ReleaseRequest>,
     pub hole_release: Signal<In, ReleaseRequest>,
     pub write: Signal<In, Write>,
     pub hole_write: Signal<In, Write>,
     /// The fill asks for a test; a context starts; an item would end with its hole.
     pub asks: Signal<In, Bit>,
     pub starts: Signal<In, Bit>,
-    pub end: Signal<In, FillEnd>,
+    pub ending: Signal<In, FillEnd>,
     /// The last write of a deletion is requested.
     pub erased: Signal<In, Committed>,
     pub merged_is_done: Signal<Out, Bit>,
@@ -82,19 +82,19 @@ impl Logic for HoleMerge {
         self.revisits.next = self.hole_outcome.val().waits;
 
         self.pushes.next = self.asks.val() & (!self.asks_or_may.val()) & (!self.starts.val());
-        self.releases.next = self.release.val().valid | self.hole_release.val().valid;
+        self.releases.next = self.attempt_release.val().valid | self.hole_release.val().valid;
         self.may_end.next = !self.releases.val();
-        self.ends_now.next = self.end.val().valid & (!self.releases.val());
+        self.ends_now.next = self.ending.val().valid & (!self.releases.val());
         self.ends.next = self.ends_now.val();
-        self.granted.next = self.end.val();
+        self.granted.next = self.ending.val();
         self.granted.next.valid = self.ends_now.val();
-        self.flat_locks.next.context = self.end.val().context;
-        self.flat_locks.next.locks = self.end.val().locks;
-        self.merged_release.next = self.release.val();
+        self.flat_locks.next.context = self.ending.val().context;
+        self.flat_locks.next.locks = self.ending.val().locks;
+        self.merged_release.next = self.attempt_release.val();
         if self.hole_release.val().valid {
             self.merged_release.next = self.hole_release.val();
         }
-        if self.ends_now.val() & self.end.val().is_flat {
+        if self.ends_now.val() & self.ending.val().is_flat {
             self.merged_release.next.valid = true;
             self.merged_release.next.job = self.flat_locks.val();
         }

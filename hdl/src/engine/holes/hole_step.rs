@@ -54,7 +54,7 @@ pub struct HoleStep {
     is_ghost: Signal<Local, Bit>,
     replaces: Signal<Local, Bit>,
     ends: Signal<Local, Bit>,
-    end: Signal<Local, RingEntry>,
+    ring_end: Signal<Local, RingEntry>,
 }
 
 impl HoleStep {
@@ -100,11 +100,11 @@ impl Logic for HoleStep {
         self.asks.next = self.is_test.val() & (!self.ends.val());
         self.tested.next = self.hole_after.val();
 
-        self.end.next = self.star.val().last;
+        self.ring_end.next = self.star.val().last;
         if self.star.val().has_infinite {
-            self.end.next = self.star.val().infinite;
+            self.ring_end.next = self.star.val().infinite;
         }
-        self.after_end.place.next = self.end.val();
+        self.after_end.place.next = self.ring_end.val();
         self.after_end.first.next = self.star.val().first;
         self.after_end.last.next = self.star.val().last;
         self.after_begin.place.next = self.after_end.after.val();
@@ -114,12 +114,12 @@ impl Logic for HoleStep {
         self.after_best.first.next = self.star.val().first;
         self.after_best.last.next = self.star.val().last;
         self.opened.next.i = self.after_end.after.val();
-        self.opened.next.j = self.end.val();
+        self.opened.next.j = self.ring_end.val();
         self.opened.next.base = 0.into();
         self.opened.next.best = self.after_begin.after.val();
         self.opened.next.challenger = self.after_best.after.val();
-        self.opened.next.is_ready = self.after_best.after.val() == self.end.val();
-        self.opened.next.end = self.end.val();
+        self.opened.next.is_ready = self.after_best.after.val() == self.ring_end.val();
+        self.opened.next.end = self.ring_end.val();
         self.opened.next.first = self.star.val().first;
         self.opened.next.last = self.star.val().last;
         self.opened.next.depth = 0.into();

@@ -40,7 +40,7 @@ pub struct HoleWriter {
     /// Number of jobs that wait.
     waiting: DFF<Bits<6>>,
     /// Number of clocks until the next job is taken.
-    wait: DFF<Bits<2>>,
+    pause: DFF<Bits<2>>,
     valid: DFF<Bits<8>>,
     job0: DFF<FillJob>,
     job1: DFF<FillJob>,
@@ -82,7 +82,7 @@ pub struct HoleWriter {
 impl Logic for HoleWriter {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, waiting, wait, valid, job0, job1, job2, job3, job4, job5, word_m, word_i);
+        dff_setup!(self, clock, waiting, pause, valid, job0, job1, job2, job3, job4, job5, word_m, word_i);
         dff_setup!(self, clock, request, base_link, mend);
         clock!(self, clock, line);
         self.one.next = 1.into();
@@ -101,7 +101,7 @@ impl Logic for HoleWriter {
         self.line.reset.next = self.reset.val();
         self.line.push.next = self.job.val().valid;
         self.line.push_data.next = self.came_bits.val();
-        self.is_due.next = (self.wait.q.val() == self.none.val()) | (self.wait.q.val() == self.one_clock.val());
+        self.is_due.next = (self.pause.q.val() == self.none.val()) | (self.pause.q.val() == self.one_clock.val());
         self.takes.next = self.is_due.val() & self.line.valid.val();
         self.line.pop.next = self.takes.val();
         self.first.bits.next = self.line.data.val();
@@ -112,12 +112,12 @@ impl Logic for HoleWriter {
         if self.takes.val() & (!self.job.val().valid) {
             self.waiting.d.next = self.waiting.q.val() - self.one.val();
         }
-        if self.wait.q.val() != self.none.val() {
-            self.wait.d.next = self.wait.q.val() - self.one_clock.val();
+        if self.pause.q.val() != self.none.val() {
+            self.pause.d.next = self.pause.q.val() - self.one_clock.val();
         }
         self.valid.d.next = self.valid.q.val() << self.valid_shift.val();
         if self.takes.val() {
-            self.wait.d.next = self.more_clocks.val();
+            self.pause.d.next = self.more_clocks.val();
             self.valid.d.next = (self.valid.q.val() << self.valid_shift.val()) | self.valid_one.val();
         }
         self.job0.d.next = self.first.value.val();
@@ -213,7 +213,7 @@ impl Logic for HoleWriter {
 
         if self.reset.val() {
             self.waiting.d.next = 0.into();
-            self.wait.d.next = 0.into();
+            self.pause.d.next = 0.into();
             self.valid.d.next = 0.into();
             self.request.d.next.valid = false;
         }

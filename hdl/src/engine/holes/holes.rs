@@ -74,13 +74,13 @@ pub struct Holes {
     pub push_valid: Signal<Out, Bit>,
     pub pushes: Signal<In, Bit>,
     /// The item that ends, if `may_end`.
-    pub end: Signal<Out, FillEnd>,
+    pub ending: Signal<Out, FillEnd>,
     pub may_end: Signal<In, Bit>,
     pub write: Signal<Out, Write>,
     pub erased: Signal<Out, Committed>,
     pub kept: Signal<Out, KeptWrite>,
     named: NamedVertex,
-    case: StarCase,
+    kind: StarCase,
     store: StarStore,
     step: StarStep,
     visits: StarVisits,
@@ -120,7 +120,7 @@ impl Holes {
 impl Logic for Holes {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, named, case, store, hole, fill, ring, writer);
+        clock!(self, clock, named, kind, store, hole, fill, ring, writer);
         self.fill.reset.next = self.reset.val();
         self.writer.reset.next = self.reset.val();
         self.early_visit.next = self.early.val().visit;
@@ -131,22 +131,22 @@ impl Logic for Holes {
         self.names_it.next = self.named.names0.val() | self.named.names1.val() | self.named.names2.val();
         self.names.next = self.names_it.val();
         self.is_free.next = self.named.is_free.val();
-        self.case.deletes.next = self.deletes.val();
-        self.case.early.next = self.early.val();
-        self.case.holds_priority.next = self.holds_priority.val();
-        self.opens.next = self.case.is_root.val() & self.names_it.val();
+        self.kind.deletes.next = self.deletes.val();
+        self.kind.early.next = self.early.val();
+        self.kind.holds_priority.next = self.holds_priority.val();
+        self.opens.next = self.kind.is_root.val() & self.names_it.val();
         self.opens_star.next = self.opens.val();
-        self.is_done.next = self.case.is_star.val() | self.case.is_test.val();
+        self.is_done.next = self.kind.is_star.val() | self.kind.is_test.val();
 
         self.store.early_visit.next = self.early_visit.val();
         self.store.visit.next = self.visit.val();
         self.held.next = self.store.held.val();
         self.step.visit.next = self.visit.val();
         self.step.turned.next = self.turned.val();
-        self.step.is_star.next = self.case.is_star.val();
-        self.step.is_outside.next = self.case.is_outside.val();
-        self.step.is_foreign.next = self.case.is_foreign.val();
-        self.step.is_awaited.next = self.case.is_awaited.val();
+        self.step.is_star.next = self.kind.is_star.val();
+        self.step.is_outside.next = self.kind.is_outside.val();
+        self.step.is_foreign.next = self.kind.is_foreign.val();
+        self.step.is_awaited.next = self.kind.is_awaited.val();
         self.step.ring_capacity.next = self.ring_capacity.val();
         self.step.held.next = self.held.val();
         self.star_after.next = self.step.after.val();
@@ -164,7 +164,7 @@ impl Logic for Holes {
             self.star_after.next.count = 3.into();
             self.star_after.next.logged = 1.into();
         }
-        self.store.changes.next = self.case.is_star.val() | self.opens.val();
+        self.store.changes.next = self.kind.is_star.val() | self.opens.val();
         self.store.after.next = self.star_after.val();
 
         self.hole.early_visit.next = self.early_visit.val();
@@ -172,7 +172,7 @@ impl Logic for Holes {
         self.hole.turned.next = self.turned.val();
         self.hole.verdict.next = self.completion.val().verdict;
         self.hole.best_is_left.next = self.turns_left.val();
-        self.hole.is_test.next = self.case.is_test.val();
+        self.hole.is_test.next = self.kind.is_test.val();
         self.hole.opens.next = self.step.opens.val();
         self.hole.star.next = self.step.after.val();
         self.fill.came.next = self.hole.came.val();
@@ -183,7 +183,7 @@ impl Logic for Holes {
         self.fill.taken.next = self.start.val().id;
         self.fill.is_full.next = self.writer.is_full.val();
         self.writer.job.next = self.fill.job.val();
-        self.end.next = self.fill.end.val();
+        self.ending.next = self.fill.ending.val();
         self.asked.next = self.fill.hole.val();
         self.hole.stores.next = self.fill.asks.val() & self.pushes.val();
         self.hole.stored.next = self.asked.val();
@@ -198,13 +198,13 @@ impl Logic for Holes {
         self.visits.onward.next = self.step.onward.val();
         self.visits.outside.next = self.step.outside.val();
         self.visits.next_place.next = self.step.next_place.val();
-        self.visits.tests.next = self.case.is_test.val();
+        self.visits.tests.next = self.kind.is_test.val();
         self.visits.hole.next = self.hole.tested.val();
         self.follow.next.asks = self.opens.val()
             | self.step.revisits.val()
             | self.step.looks_outside.val()
             | self.hole.asks.val();
-        self.follow.next.may_ask = self.case.may_ask.val() | self.opens.val();
+        self.follow.next.may_ask = self.kind.may_ask.val() | self.opens.val();
         self.follow.next.bundle = self.visits.bundle.val();
 
         // The test that the fill asks for is the first one of an interval.
@@ -245,7 +245,7 @@ impl Logic for Holes {
         self.erased.next = self.writer.erased.val();
         self.kept.next = self.writer.kept.val();
 
-        self.lock.next.valid = self.case.is_star.val() & self.turned.val().took;
+        self.lock.next.valid = self.kind.is_star.val() & self.turned.val().took;
         self.lock.next.context = self.visit.val().context;
         self.lock.next.place = self.held.val().logged;
         self.lock.next.id = self.visit.val().record;

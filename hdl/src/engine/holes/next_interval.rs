@@ -26,7 +26,7 @@ pub struct NextInterval {
     /// The interval behind the apex waits.
     pub pushes: Signal<Out, Bit>,
     /// The first place of the whole ring, and the one after it.
-    pub begin: Signal<Out, RingEntry>,
+    pub start: Signal<Out, RingEntry>,
     pub second: Signal<Out, RingEntry>,
     after_i: NextPlace,
     after_apex: NextPlace,
@@ -80,7 +80,7 @@ impl Logic for NextInterval {
         self.after_apex.place.next = self.hole.val().best;
         self.after_end.place.next = self.hole.val().end;
         self.after_first.place.next = self.after_end.after.val();
-        self.begin.next = self.after_end.after.val();
+        self.start.next = self.after_end.after.val();
         self.second.next = self.after_first.after.val();
         self.depth.next = self.hole.val().depth;
 
