@@ -164,14 +164,7 @@ impl Logic for ContextFlags {
             self.state.d.next.asleep = self.built_contexts.val();
             self.state.d.next.retrying = 0.into();
             self.state.d.next.busy = 0.into();
-            for i in 0..self.fill.len() {
-            self.fill[i].ending.next = self.fill_end[i].val();
-            self.fill[i].asleep.next = (self.sleeping.val() | self.falls_asleep.val()) & (!self.starting.val());
-            self.fill[i].busy.next = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
-            self.state.d.next.asleep = self.fill[i].asleep_after.val();
-            self.state.d.next.busy = self.fill[i].busy_after.val();
-        }
-        self.state.d.next.began = 0.into();
+            self.state.d.next.began = 0.into();
             self.state.d.next.hinted = 0.into();
             self.state.d.next.solo = 0.into();
             self.state.d.next.solo_valid = false;
