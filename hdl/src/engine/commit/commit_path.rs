@@ -154,6 +154,7 @@ impl Logic for CommitPath {
             self.kept_ids[i].start.next = self.start[i].val();
             self.kept_ids[i].owns.next = self.owns[i].val();
             self.kept_ids[i].kept.next = self.kept[i].val();
+            self.kept_ids[i].commit.next = self.commit.val();
             self.kept_ids[i].job.next = self.rings.head_job.val();
             self.kept_ids[i].loads.next = self.star.loads[i].val();
             self.kept_ids[i].takes.next = self.star.takes_fresh.val();

@@ -2,14 +2,15 @@
 //! mesh of `n` vertices has exactly `2 n - 2` records that are not free.
 //!
 //! 1. Whether ids are kept for the vertex of a context comes with its item (`owns`). A vertex that a context takes
-//!    without an item has none.
+//!    without an item has none. The next item of a context may begin before the ring of this one is read, so a ring
+//!    that is handed over takes the flag along.
 //! 2. The ids of a ring are read while its first entries come to the head, and those of a solo insertion while it
 //!    locates its point.
 //!
 //! Latency: 2 clocks from a vertex to its ids.
 
 use crate::engine::types::{
-    context_bits, CommitJob, ContextId, KeptWrite, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS, TRIANGLE_BITS,
+    context_bits, CommitJob, CommitRequest, ContextId, KeptWrite, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS, TRIANGLE_BITS,
     VERTEX_BITS,
 };
 use crate::leaf::{BlockMemory, LutMemory};
@@ -27,6 +28,8 @@ pub struct KeptIds {
     pub owns: Signal<In, Bit>,
     /// Ids that a vertex keeps from now on.
     pub kept: Signal<In, KeptWrite>,
+    /// A ring is handed over.
+    pub commit: Signal<In, CommitRequest>,
     /// The ring whose first entry is at the head or on its way there; it is taken at this edge (`loads`); and it takes
     /// a new id (`takes`), which is `id` if it `has_ids`.
     pub job: Signal<In, CommitJob>,
@@ -42,6 +45,8 @@ pub struct KeptIds {
     pub solo_second: Signal<Out, TriangleId>,
     pairs: BlockMemory<VERTEX_BITS, PAIR_BITS>,
     owners: LutMemory<CONTEXT_BITS, 1>,
+    handed: LutMemory<CONTEXT_BITS, 1>,
+    handed_job: Signal<Local, CommitJob>,
     solo_vertex: DFF<VertexId>,
     solo_context: DFF<ContextId>,
     pair: DFF<Bits<PAIR_BITS>>,
@@ -57,6 +62,7 @@ impl KeptIds {
         Self {
             pairs: BlockMemory::new(vertex_id_bits(config.points) as usize - 1, PAIR_BITS),
             owners: LutMemory::new(context_bits(config), 1),
+            handed: LutMemory::new(context_bits(config), 1),
             ..Self::default()
         }
     }
@@ -66,7 +72,8 @@ impl Logic for KeptIds {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, solo_vertex, solo_context, pair, owned, is_second);
-        clock!(self, clock, pairs, owners);
+        clock!(self, clock, pairs, owners, handed);
+        self.handed_job.next = self.commit.val().job;
         self.shift.next = 15.into();
         self.first.next = bit_cast::<PAIR_BITS, 15>(self.kept.val().first);
         self.second.next = bit_cast::<PAIR_BITS, 15>(self.kept.val().second);
@@ -85,7 +92,11 @@ impl Logic for KeptIds {
             self.solo_context.d.next = self.solo_start.val().context;
         }
         self.pairs.read_address.next = self.job.val().vertex;
-        self.owners.read_address.next = self.job.val().context;
+        self.owners.read_address.next = self.handed_job.val().context;
+        self.handed.write_address.next = self.handed_job.val().context;
+        self.handed.write_data.next = self.owners.read_data.val();
+        self.handed.write_enable.next = self.commit.val().valid;
+        self.handed.read_address.next = self.job.val().context;
         if self.solo_is_at_work.val() {
             self.pairs.read_address.next = self.solo_vertex.q.val();
             self.owners.read_address.next = self.solo_context.q.val();
@@ -104,7 +115,7 @@ impl Logic for KeptIds {
         }
         if self.loads.val() {
             self.pair.d.next = self.pairs.read_data.val();
-            self.owned.d.next = self.owners.read_data.val().any();
+            self.owned.d.next = self.handed.read_data.val().any();
             self.is_second.d.next = false;
         }
     }
