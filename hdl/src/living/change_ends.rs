@@ -117,9 +117,8 @@ impl Logic for ChangeEnds {
         }
         self.raises.next = self.events.val().commit_ends | self.events.val().solo_inserts;
         self.raised.next = self.events.val().committed_vertex;
-        self.unmarks.next =
-            (self.events.val().duplicate & (!self.is_delete.val()))
-                | (self.events.val().solo_ends & (!self.events.val().solo_inserts));
+        self.unmarks.next = (self.events.val().duplicate & (!self.is_delete.val()))
+            | (self.events.val().solo_ends & (!self.events.val().solo_inserts));
         self.remarks.next = self.is_refused.val();
         self.remarked.next = self.events.val().vertex;
         if self.is_flat.val() {

@@ -128,8 +128,7 @@ impl Logic for QuestionStep {
         self.search.follows.next = self.completion.val().done & self.is_chain.val();
         self.search.begins.next =
             (self.completion.val().done & self.looks.val()) | (self.is_nearest.val() & self.arrives.val());
-        self.is_near.next =
-            self.is_chain.val() | self.looks.val() | (self.is_nearest.val() & self.located.val());
+        self.is_near.next = self.is_chain.val() | self.looks.val() | (self.is_nearest.val() & self.located.val());
         if self.is_near.val() {
             self.ends.next = self.search.ends.val();
             self.asks.next = self.search.asks.val();

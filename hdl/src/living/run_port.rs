@@ -104,7 +104,9 @@ pub struct RunPort {
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
-    Status::BadRange as u8 == 2 && Status::NoMesh as u8 == 7 && Opcode::InsertAs as u8 == 11
+    Status::BadRange as u8 == 2
+        && Status::NoMesh as u8 == 7
+        && Opcode::InsertAs as u8 == 11
         && Opcode::Delete as u8 == 12,
     "the numbers of this block follow the protocol"
 );

@@ -387,7 +387,11 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     Fault { name: "nobody_waits_at_a_star", pieces: &[piece("again = @;", "is_live & is_awaited", "1'b0")] },
     Fault {
         name: "locks_of_a_star_are_released_too_soon",
-        pieces: &[piece("erased[(64'h0)+:(1)] = @;", "valid$q[32'h5] & job5$q[(64'h1a)+:(1)]", "valid$q[32'h0] & job0$q[(64'h1a)+:(1)]")],
+        pieces: &[piece(
+            "erased[(64'h0)+:(1)] = @;",
+            "valid$q[32'h5] & job5$q[(64'h1a)+:(1)]",
+            "valid$q[32'h0] & job0$q[(64'h1a)+:(1)]",
+        )],
     },
     Fault { name: "free_records_are_not_known", pieces: &[piece("is_free = @;", "named$is_free", "1'b0")] },
     Fault { name: "chains_do_not_meet", pieces: &[piece("meets = @;", "next_record == other_head", "1'b0")] },
@@ -395,12 +399,12 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "best_apex_is_always_left",
         pieces: &[piece("(verdict[(64'h0)+:(1)] | (@))", "~best_is_left", "1'b0")],
     },
-    Fault { name: "flat_holes_are_filled", pieces: &[piece("restarts = @;", "hole[(64'h31)+:(1)] & has_left", "1'b0")] },
+    Fault {
+        name: "flat_holes_are_filled",
+        pieces: &[piece("restarts = @;", "hole[(64'h31)+:(1)] & has_left", "1'b0")],
+    },
     Fault { name: "side_of_a_hole_is_not_mended", pieces: &[piece("mend$d = @;", "side$write", "110'b0")] },
     Fault { name: "kept_ids_are_forgotten", pieces: &[piece("has_ids = @;", "owned$q", "1'b0")] },
-    Fault {
-        name: "free_records_are_read_out",
-        pieces: &[piece("lives = comes & @ &", "(~is_free)", "1'b1")],
-    },
+    Fault { name: "free_records_are_read_out", pieces: &[piece("lives = comes & @ &", "(~is_free)", "1'b1")] },
     Fault { name: "test_pushes_beside_a_visit", pieces: &[piece("pushes = asks & @ &", "(~asks_or_may)", "1'b1")] },
 ];

@@ -10,8 +10,8 @@
 //! Latency: 2 clocks from a vertex to its ids.
 
 use crate::engine::types::{
-    context_bits, CommitJob, CommitRequest, ContextId, KeptWrite, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS, TRIANGLE_BITS,
-    VERTEX_BITS,
+    context_bits, CommitJob, CommitRequest, ContextId, KeptWrite, SoloStart, Start, TriangleId, VertexId, CONTEXT_BITS,
+    TRIANGLE_BITS, VERTEX_BITS,
 };
 use crate::leaf::{BlockMemory, LutMemory};
 use crate::prelude::*;

@@ -25,8 +25,8 @@
 //! holds_priority    _______________/^^^^^\__/^^\__/^^\________
 //! ```
 
-use super::next_point::{Passed, Planned};
 use super::fill_priority::FillPriority;
+use super::next_point::{Passed, Planned};
 use crate::engine::types::{context_bits, ContextId, FillEnd, Outcome, Priority, CONTEXT_BITS, PRIORITY_BITS};
 use crate::leaf::{LutMemory, Unpack};
 use crate::prelude::*;

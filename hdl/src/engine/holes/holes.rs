@@ -32,8 +32,8 @@ use super::star_step::StarStep;
 use super::star_store::StarStore;
 use super::star_visits::StarVisits;
 use crate::engine::types::{
-    Bundle, Committed, Completion, Entry, FillEnd, Follow, Hole, HoleOf, KeptWrite, LockWrite, Outcome,
-    ReleaseJob, ReleaseRequest, RingCount, Star, Start, TestVertices, Turned, Upcoming, VertexId, Visit, Write,
+    Bundle, Committed, Completion, Entry, FillEnd, Follow, Hole, HoleOf, KeptWrite, LockWrite, Outcome, ReleaseJob,
+    ReleaseRequest, RingCount, Star, Start, TestVertices, Turned, Upcoming, VertexId, Visit, Write,
 };
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -200,10 +200,8 @@ impl Logic for Holes {
         self.visits.next_place.next = self.step.next_place.val();
         self.visits.tests.next = self.kind.is_test.val();
         self.visits.hole.next = self.hole.tested.val();
-        self.follow.next.asks = self.opens.val()
-            | self.step.revisits.val()
-            | self.step.looks_outside.val()
-            | self.hole.asks.val();
+        self.follow.next.asks =
+            self.opens.val() | self.step.revisits.val() | self.step.looks_outside.val() | self.hole.asks.val();
         self.follow.next.may_ask = self.kind.may_ask.val() | self.opens.val();
         self.follow.next.bundle = self.visits.bundle.val();
 

@@ -108,10 +108,8 @@ impl Logic for StarStep {
         self.onward.next = self.next_record.val();
         self.meets.next = self.next_record.val() == self.other_head.val();
         self.is_full.next = self.count.val() == self.ring_capacity.val();
-        self.goes.next =
-            self.counts.val() & (!self.is_outside.val()) & (!self.meets.val()) & (!self.is_full.val());
-        self.overflows.next =
-            self.counts.val() & (!self.is_outside.val()) & (!self.meets.val()) & self.is_full.val();
+        self.goes.next = self.counts.val() & (!self.is_outside.val()) & (!self.meets.val()) & (!self.is_full.val());
+        self.overflows.next = self.counts.val() & (!self.is_outside.val()) & (!self.meets.val()) & self.is_full.val();
         self.looks.next = self.goes.val() | (self.counts.val() & (!self.is_outside.val()) & self.meets.val());
         self.goes_on.next = self.goes.val();
         self.looks_outside.next = self.looks.val();

@@ -32,7 +32,8 @@ use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
     context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, NearVerdict, Position, Push, RecordRead,
-    TestVertices, TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS, VISIT_BITS,
+    TestVertices, TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS,
+    VISIT_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};

@@ -141,7 +141,8 @@ impl Rig {
         let done: Vec<u32> = items().filter(|(_, part)| is(part, Outcome::Done)).map(|(vertex, _)| vertex).collect();
         let expected = self.expected(&run(&done));
         assert!(expected[2..].chunks(2).all(|part| is(part, Outcome::Done)), "vertices that were deleted can be");
-        for (vertex, part) in items().filter(|(_, part)| !is(part, Outcome::Done) && !is(part, Outcome::ManyNeighbors)) {
+        for (vertex, part) in items().filter(|(_, part)| !is(part, Outcome::Done) && !is(part, Outcome::ManyNeighbors))
+        {
             let is_alone = vertices.iter().filter(|&&other| other == vertex).count() == 1;
             let expected = self.expected(&run(&[vertex]));
             assert!(!is_alone || outcome(&expected[2..]) == outcome(part), "{vertex}: {part:x?}, not {expected:x?}");

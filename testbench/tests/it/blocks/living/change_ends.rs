@@ -11,7 +11,17 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     ChangeEnds,
     [
-        reset, runs, events, context_id, number, corner, is_delete, refuses, is_beyond, refused_number, refused_vertex,
+        reset,
+        runs,
+        events,
+        context_id,
+        number,
+        corner,
+        is_delete,
+        refuses,
+        is_beyond,
+        refused_number,
+        refused_vertex,
         has_room
     ],
     [is_noted, ends, came, raises, raised, unmarks, unmarked, remarks, remarked],
@@ -31,9 +41,13 @@ enum Event {
     Nothing,
     HandsOver,
     Duplicate,
-    Solo { inserts: bool },
+    Solo {
+        inserts: bool,
+    },
     /// The hole of a deletion is full, or no triangle would be left.
-    Fill { is_flat: bool },
+    Fill {
+        is_flat: bool,
+    },
 }
 
 #[test]
@@ -104,7 +118,9 @@ fn change_ends_gives_each_item_its_part() {
             Event::Fill { is_flat: true } => Some((number, FLAT, vertex ^ 1)),
             Event::Solo { inserts: true } => Some((last[0], 0, last[1])),
             Event::Solo { inserts: false } => Some((last[0], DUPLICATE, last[2])),
-            Event::Nothing | Event::HandsOver | Event::Fill { is_flat: false } => due.front().map(|&[number, vertex]| (number, 0, vertex)),
+            Event::Nothing | Event::HandsOver | Event::Fill { is_flat: false } => {
+                due.front().map(|&[number, vertex]| (number, 0, vertex))
+            }
         };
         let is_noted = part.is_none() && refuses && has_room;
         let refusal = match (is_delete, is_beyond) {

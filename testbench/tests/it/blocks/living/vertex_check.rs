@@ -12,8 +12,8 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     VertexCheck,
     [
-        reset, clears, capacity, arrived, dealt, is_change, is_delete, vertex, accepted, is_noted, marks, marked, disowns,
-        unmarks, unmarked, fetches, fetched
+        reset, clears, capacity, arrived, dealt, is_change, is_delete, vertex, accepted, is_noted, marks, marked,
+        disowns, unmarks, unmarked, fetches, fetched
     ],
     [taken, offered, refuses, is_beyond, wanted],
     clock
