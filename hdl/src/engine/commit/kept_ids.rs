@@ -49,6 +49,9 @@ pub struct KeptIds {
     handed_job: Signal<Local, CommitJob>,
     solo_vertex: DFF<VertexId>,
     solo_context: DFF<ContextId>,
+    /// A solo insertion has started one clock ago: that it is at work shows a clock later.
+    has_started: DFF<Bit>,
+    starts: Signal<Local, Bit>,
     pair: DFF<Bits<PAIR_BITS>>,
     owned: DFF<Bit>,
     is_second: DFF<Bit>,
@@ -71,7 +74,7 @@ impl KeptIds {
 impl Logic for KeptIds {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, solo_vertex, solo_context, pair, owned, is_second);
+        dff_setup!(self, clock, solo_vertex, solo_context, has_started, pair, owned, is_second);
         clock!(self, clock, pairs, owners, handed);
         self.handed_job.next = self.commit.val().job;
         self.shift.next = 15.into();
@@ -87,7 +90,10 @@ impl Logic for KeptIds {
         }
         self.owners.write_enable.next = self.start.val().takes;
 
-        if self.solo_start.val().valid & (!self.solo_is_at_work.val()) {
+        self.starts.next =
+            self.solo_start.val().valid & (!self.solo_is_at_work.val()) & (!self.has_started.q.val());
+        self.has_started.d.next = self.starts.val();
+        if self.starts.val() {
             self.solo_vertex.d.next = self.solo_start.val().vertex;
             self.solo_context.d.next = self.solo_start.val().context;
         }
