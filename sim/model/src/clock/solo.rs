@@ -96,11 +96,6 @@ impl Solo {
         self.done
     }
 
-    /// The vertex that is inserted.
-    pub(super) fn vertex(&self) -> u32 {
-        self.vertex
-    }
-
     /// The context whose point is inserted.
     pub(super) fn context(&self) -> usize {
         self.context
@@ -130,10 +125,10 @@ impl Solo {
                     self.state = State::Locate;
                 }
             }
-            (State::Split, _) => self.split(was, memory),
+            (State::Split, _) => self.split(was),
             (State::Flip, _) => self.flip(was),
             (State::Locate, Some(done)) => self.locate(wires, &done),
-            (State::Mend, Some(done)) => self.mend(was, &done, memory),
+            (State::Mend, Some(done)) => self.mend(was, &done),
             (State::Fetch, Some(done)) => self.take_star(&done),
             (State::Test, Some(done)) => self.take_test(was, wires, &done),
             (State::Locate | State::Mend | State::Fetch | State::Test, None) => {}
@@ -153,16 +148,10 @@ impl Solo {
         }
     }
 
-    /// The ids of the two records that come to the mesh.
-    fn new_ids(&self, was: &Registers, memory: &Memory) -> [u32; 2] {
-        let fresh = was.commit.records;
-        memory.kept(self.vertex).unwrap_or([fresh, fresh + 1])
-    }
-
-    fn split(&mut self, was: &Registers, memory: &Memory) {
+    fn split(&mut self, was: &Registers) {
         let (id, root) = (was.solo.root_id, was.solo.root);
-        let p = was.solo.vertex;
-        let [second, third] = self.new_ids(was, memory);
+        let (p, second) = (was.solo.vertex, was.commit.records);
+        let third = second + 1;
         let [v0, v1, v2] = root.v;
         self.write = match was.solo.step {
             0 => Write::record(id, [p, v1, v2], [root.n[0], second, third]),
@@ -176,10 +165,9 @@ impl Solo {
         }
     }
 
-    fn mend(&mut self, was: &Registers, done: &Completion, memory: &Memory) {
+    fn mend(&mut self, was: &Registers, done: &Completion) {
         self.awaits = false;
-        let id = self.new_ids(was, memory)[was.solo.step as usize];
-        self.write = Write::link(done.visit.record, done.slot, id);
+        self.write = Write::link(done.visit.record, done.slot, was.commit.records + was.solo.step);
         self.step = 1;
         if was.solo.step == 1 {
             self.id = was.solo.root_id;

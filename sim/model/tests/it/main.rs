@@ -10,8 +10,6 @@ mod clock {
     mod batch;
     mod by_command;
     mod defects;
-    mod delete_cycles;
-    mod deletions;
     mod hang;
     mod orders;
     mod questions;

@@ -1,4 +1,4 @@
 //! The living engine, clock by clock.
 
 mod defects;
-pub mod scripts;
+mod scripts;
