@@ -39,6 +39,8 @@ pub const MAX_MODEL_POINTS: u32 = (1 << 30) - 1;
 pub const MIN_POINTS: u32 = 4;
 /// Largest number of boundary edges in a list: the number of an entry must fit into 6 bits.
 pub const MAX_RING: u32 = 64;
+/// Most edges of a boundary list in a core with deletions: a place of a star, with its side, has six bits.
+pub const MAX_DELETE_RING: u32 = 32;
 /// Smallest number of boundary edges in a list: the three edges of the root.
 pub const MIN_RING: u32 = 3;
 
@@ -77,6 +79,8 @@ pub enum ConfigError {
     Engines(u32),
     /// The number of engines of a core that answers questions about its mesh is not 1.
     EnginesForQuestions(u32),
+    /// The boundary list of a core with deletions is longer than `MAX_DELETE_RING`.
+    RingForDeletions(u32),
 }
 
 impl core::fmt::Display for ConfigError {
@@ -97,6 +101,9 @@ impl core::fmt::Display for ConfigError {
             }
             Self::EnginesForQuestions(given) => {
                 write!(f, "a core that answers questions cannot have {given} engines: choose a configuration of one")
+            }
+            Self::RingForDeletions(given) => {
+                write!(f, "a core with deletions cannot have a boundary list of {given} edges: choose a number from {MIN_RING} to {MAX_DELETE_RING}")
             }
         }
     }

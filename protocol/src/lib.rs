@@ -31,7 +31,8 @@ pub use command::{
 };
 pub use config::{
     patience, Config, ConfigError, DUAL, ENGINES, ENGINE_QUEUE_WORDS, FIRST_ROUND, FULL, LARGE, MAX_CONTEXTS,
-    MAX_MODEL_POINTS, MAX_POINTS, MAX_RING, MIN_CONTEXTS, MIN_POINTS, MIN_RING, NAMED, QUAD, SMALL, TINY,
+    MAX_DELETE_RING, MAX_MODEL_POINTS, MAX_POINTS, MAX_RING, MIN_CONTEXTS, MIN_POINTS, MIN_RING, NAMED, QUAD, SMALL,
+    TINY,
 };
 pub use counters::{latency_bucket, latency_of_bucket, Counter, COUNTER_WORDS, LATENCY_BITS, LATENCY_BUCKETS};
 pub use datagram::{

@@ -18,7 +18,8 @@ pub const FEATURE_RUNS: u32 = 1;
 pub const CORE_RUNS: u32 = RunKind::Locate.feature()
     | RunKind::Interpolate.feature()
     | RunKind::Nearest.feature()
-    | RunKind::InsertAs.feature();
+    | RunKind::InsertAs.feature()
+    | RunKind::Delete.feature();
 
 /// Lowest bit of the outcome in the first word of a part of an answer.
 pub const OUTCOME_SHIFT: u32 = 24;
@@ -191,7 +192,7 @@ mod tests {
             assert_eq!(kind.feature() & others, 0);
             assert_eq!(taken(kind.feature()), RunKind::ALL.map(|other| other == kind));
         }
-        assert_eq!(taken(CORE_RUNS), [true, true, true, true, false, false]);
+        assert_eq!(taken(CORE_RUNS), [true, true, true, true, true, false]);
     }
 
     #[test]

@@ -9,9 +9,10 @@
 //!
 //! Latency: 3 clocks from `read_done` to the beat that the record fills.
 
+use super::living_reads::LivingReads;
 use super::record_stream::RecordStream;
 use super::types::{AnswerBeat, RecordCount};
-use crate::engine::types::TriangleId;
+use crate::engine::types::{TriangleId, VertexId};
 use crate::mesh::Record;
 use crate::prelude::*;
 
@@ -42,6 +43,9 @@ pub struct RecordReads {
     pub beat: Signal<Out, AnswerBeat>,
     /// The beat is taken at this edge; allowed only while `valid` is high.
     pub takes: Signal<In, Bit>,
+    /// In a core with deletions, which leaves free records out of a payload of vertices: the infinite vertex.
+    pub infinite: Vec<Signal<In, VertexId>>,
+    living: Vec<LivingReads>,
     /// The form of the payload in registers, because it chooses every bit of a beat.
     vertices_alone: DFF<Bit>,
     ids_are_short: DFF<Bit>,
@@ -62,6 +66,13 @@ pub struct RecordReads {
     one: Signal<Local, RecordCount>,
 }
 
+impl RecordReads {
+    /// The block of a core with deletions.
+    pub fn with_deletions() -> Self {
+        Self { infinite: vec![Signal::default()], living: vec![LivingReads::default()], ..Self::default() }
+    }
+}
+
 impl Logic for RecordReads {
     #[hdl_gen]
     fn update(&mut self) {
@@ -75,6 +86,21 @@ impl Logic for RecordReads {
 
         self.asks.next =
             self.runs.val() & self.some_are_left.q.val() & self.stream.has_room.val() & (!self.pauses.q.val());
+        for i in 0..self.living.len() {
+            self.living[i].clock.next = self.clock.val();
+            self.living[i].infinite.next = self.infinite[i].val();
+            self.living[i].starts.next = self.starts.val();
+            self.living[i].first.next = self.first.val();
+            self.living[i].count.next = self.count.val();
+            self.living[i].comes.next = self.read_done.val() & self.vertices_alone.q.val();
+            self.living[i].record.next = self.record.val();
+            if self.vertices_alone.q.val() {
+                self.asks.next = self.runs.val()
+                    & self.living[i].some_are_left.val()
+                    & self.stream.has_room.val()
+                    & (!self.pauses.q.val());
+            }
+        }
         self.read.next = self.asks.val();
         self.read_id.next = self.record_id.q.val();
         self.pauses.d.next = self.asks.val() & self.is_second.q.val() & (!self.vertices_alone.q.val());
@@ -99,6 +125,15 @@ impl Logic for RecordReads {
         self.stream.has_rests.next = self.rests_follow.q.val();
         self.stream.comes.next = self.read_done.val();
         self.stream.record.next = self.record.val();
+
+        for i in 0..self.living.len() {
+            if self.vertices_alone.q.val() {
+                self.stream.comes.next = self.living[i].counts.val();
+                if self.starts.val() {
+                    self.record_id.d.next = 0.into();
+                }
+            }
+        }
 
         self.valid.next = self.is_there.q.val();
         self.beat.next = self.head.q.val();

@@ -24,7 +24,7 @@ use super::channels::AnswerSource;
 use super::payload_words::PayloadWords;
 use super::record_reads::RecordReads;
 use super::types::{AnswerBeat, AnswerProgress, Head, Request, Word, WordIndex, WordPair, WORD_PAIR_BITS};
-use crate::engine::types::TriangleId;
+use crate::engine::types::{TriangleId, VertexId};
 use crate::mesh::Record;
 use crate::prelude::*;
 
@@ -71,6 +71,8 @@ pub struct Responder {
     pub record: Signal<In, Record>,
     pub response: AnswerSource,
     pub progress: Signal<Out, AnswerProgress>,
+    /// In a core with deletions: the infinite vertex.
+    pub infinite: Vec<Signal<In, VertexId>>,
     state: DFF<AnswerState>,
     /// The first of the two clocks of `Prepare` has passed.
     waited: DFF<Bit>,
@@ -82,6 +84,13 @@ pub struct Responder {
     pair_bits: Signal<Local, Bits<WORD_PAIR_BITS>>,
     loads: Signal<Local, Bit>,
     ends: Signal<Local, Bit>,
+}
+
+impl Responder {
+    /// The block of a core with deletions.
+    pub fn with_deletions() -> Self {
+        Self { infinite: vec![Signal::default()], records: RecordReads::with_deletions(), ..Self::default() }
+    }
 }
 
 impl Logic for Responder {
@@ -116,6 +125,9 @@ impl Logic for Responder {
         self.records.has_short_ids.next = self.head.val().has_short_ids;
         self.records.has_rests.next = self.head.val().has_rests;
         self.records.runs.next = self.state.q.val() == AnswerState::Records;
+        for i in 0..self.infinite.len() {
+            self.records.infinite[i].next = self.infinite[i].val();
+        }
         self.read.next = self.records.read.val();
         self.read_id.next = self.records.read_id.val();
         self.records.read_done.next = self.read_done.val();

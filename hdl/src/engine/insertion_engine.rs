@@ -23,7 +23,7 @@ use super::types::{
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
 use crate::mesh::ReadRecord;
-use crate::predicate::Sides;
+use crate::predicate::{Point, Sides};
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -73,6 +73,16 @@ pub struct InsertionEngine {
     pub is_pending: Vec<Signal<In, Bit>>,
     pub change_runs: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
+    /// Ids are kept for the vertex of the item that begins. A run of deletions is under way. A vertex whose point is
+    /// wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A vertex is deleted, or
+    /// has come back with the ids that were kept for it.
+    pub launch_owns: Vec<Signal<In, Bit>>,
+    pub deletes: Vec<Signal<In, Bit>>,
+    pub wanted: Vec<Signal<In, VertexId>>,
+    pub fetches: Vec<Signal<Out, Bit>>,
+    pub fetched: Vec<Signal<Out, Point>>,
+    pub erases: Vec<Signal<Out, Bit>>,
+    pub returns: Vec<Signal<Out, Bit>>,
     insertions: Insertions,
     pipeline: VisitPipeline,
     solo: Solo,
@@ -111,6 +121,14 @@ impl InsertionEngine {
             has_changed: vec![Signal::default()],
             is_pending: vec![Signal::default()],
             change_runs: vec![Signal::default()],
+            solo: Solo::with_deletions(),
+            launch_owns: vec![Signal::default()],
+            deletes: vec![Signal::default()],
+            wanted: vec![Signal::default()],
+            fetches: vec![Signal::default()],
+            fetched: vec![Signal::default()],
+            erases: vec![Signal::default()],
+            returns: vec![Signal::default()],
             changes: vec![Signal::default()],
             ..Self::new(config)
         }
@@ -217,6 +235,25 @@ impl Logic for InsertionEngine {
             }
             if self.launch_stores[i].val() {
                 self.pipeline.arrival.next = self.launch_arrival[i].val();
+            }
+            self.insertions.launch_owns[i].next = self.launch_owns[i].val();
+            self.insertions.deletes[i].next = self.deletes[i].val();
+            self.insertions.issued[i].next = self.pipeline.issued[i].val();
+            self.insertions.turns_left[i].next = self.pipeline.turns_left[i].val();
+            self.pipeline.deletes[i].next = self.deletes[i].val();
+            self.pipeline.test_vertices[i].next = self.insertions.test_vertices[i].val();
+            self.fetches[i].next = self.pipeline.fetches[i].val();
+            self.fetched[i].next = self.pipeline.fetched.val();
+            self.erases[i].next = self.insertions.erases[i].val();
+            self.returns[i].next = self.insertions.returns[i].val();
+            self.solo.records.next = self.insertions.solo_first[i].val();
+            self.solo.own_third[i].next = self.insertions.solo_second[i].val();
+            if self.deletes[i].val() {
+                self.pipeline.fetch_id.next = self.wanted[i].val();
+            }
+            if self.insertions.fill_pushes[i].val() {
+                self.push_port.question_asks[i].next = true;
+                self.push_port.question[i].next = self.insertions.fill_push[i].val();
             }
             if self.change_runs[i].val() {
                 self.events.next.duplicate = false;

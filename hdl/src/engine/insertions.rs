@@ -4,9 +4,11 @@
 use super::attempt::Attempts;
 use super::commit::CommitPath;
 use super::dispatch::{ChangeView, Dispatcher};
+use super::holes::{HoleMerge, Holes};
 use super::types::{
-    ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow, Limits, LockClear,
-    SeedProgress, SoloProgress, SoloStart, Start, TriangleId, Upcoming, VertexId, Visit, VisitEvents, Write,
+    Bundle, ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow, Limits, LockClear,
+    SeedProgress, SoloProgress, SoloStart, Start, TestVertices, TriangleId, Upcoming, VertexId, Visit, VisitEvents,
+    Write,
 };
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
@@ -61,6 +63,22 @@ pub struct Insertions {
     pub has_changed: Vec<Signal<In, Bit>>,
     pub is_pending: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
+    /// In such a core: ids are kept for the vertex of the item that begins. A run of deletions is under way; the visit
+    /// that reads its record, and the vertices of its test; whether the corners of the completed visit turn left; a
+    /// test that enters the queue; the two ids of a solo insertion; a vertex is deleted, or has come back.
+    pub launch_owns: Vec<Signal<In, Bit>>,
+    pub deletes: Vec<Signal<In, Bit>>,
+    pub issued: Vec<Signal<In, Visit>>,
+    pub test_vertices: Vec<Signal<Out, TestVertices>>,
+    pub turns_left: Vec<Signal<In, Bit>>,
+    pub fill_push: Vec<Signal<Out, Bundle>>,
+    pub fill_pushes: Vec<Signal<Out, Bit>>,
+    pub solo_first: Vec<Signal<Out, TriangleId>>,
+    pub solo_second: Vec<Signal<Out, TriangleId>>,
+    pub erases: Vec<Signal<Out, Bit>>,
+    pub returns: Vec<Signal<Out, Bit>>,
+    holes: Vec<Holes>,
+    merge: Vec<HoleMerge>,
     view: Vec<ChangeView>,
     dispatcher: Dispatcher,
     attempts: Attempts,
@@ -93,6 +111,20 @@ impl Insertions {
             is_pending: vec![Signal::default()],
             changes: vec![Signal::default()],
             view: vec![ChangeView::default()],
+            commits: CommitPath::with_deletions(config),
+            launch_owns: vec![Signal::default()],
+            deletes: vec![Signal::default()],
+            issued: vec![Signal::default()],
+            test_vertices: vec![Signal::default()],
+            turns_left: vec![Signal::default()],
+            fill_push: vec![Signal::default()],
+            fill_pushes: vec![Signal::default()],
+            solo_first: vec![Signal::default()],
+            solo_second: vec![Signal::default()],
+            erases: vec![Signal::default()],
+            returns: vec![Signal::default()],
+            holes: vec![Holes::new(config)],
+            merge: vec![HoleMerge::default()],
             ..Self::new(config)
         }
     }
@@ -186,6 +218,77 @@ impl Logic for Insertions {
             self.view[i].contexts.next = self.dispatcher.contexts.val();
             self.view[i].start.next = self.dispatcher.own_start[i].val();
             self.changes[i].next = self.view[i].events.val();
+        }
+
+        // In a run of deletions all visits that turn their record are those of the holes.
+        for i in 0..self.holes.len() {
+            self.holes[i].clock.next = self.clock.val();
+            self.holes[i].reset.next = self.reset.val();
+            self.holes[i].deletes.next = self.deletes[i].val();
+            self.holes[i].infinite.next = self.limits.val().infinite;
+            self.holes[i].ring_capacity.next = self.limits.val().ring_capacity;
+            self.holes[i].start.next = self.dispatcher.start.val();
+            self.holes[i].early.next = self.early.val();
+            self.holes[i].holds_priority.next = self.dispatcher.holds_priority.val();
+            self.holes[i].completion.next = self.completion.val();
+            self.holes[i].turns_left.next = self.turns_left[i].val();
+            self.holes[i].issued.next = self.issued[i].val();
+            self.test_vertices[i].next = self.holes[i].vertices.val();
+            self.attempts.deletes[i].next = self.deletes[i].val();
+            self.attempts.names[i].next = self.holes[i].names.val();
+            self.attempts.is_free[i].next = self.holes[i].is_free.val();
+
+            self.merge[i].is_done.next = self.holes[i].is_done.val();
+            self.merge[i].opens_star.next = self.holes[i].opens_star.val();
+            self.merge[i].follow.next = self.attempts.follow.val();
+            self.merge[i].hole_follow.next = self.holes[i].follow.val();
+            self.merge[i].outcome.next = self.attempts.outcome.val();
+            self.merge[i].hole_outcome.next = self.holes[i].outcome.val();
+            self.merge[i].lock.next = self.attempts.lock.val();
+            self.merge[i].hole_lock.next = self.holes[i].lock.val();
+            self.merge[i].attempt_release.next = self.attempts.releases.val();
+            self.merge[i].hole_release.next = self.holes[i].releases.val();
+            self.merge[i].ending.next = self.holes[i].ending.val();
+            self.merge[i].erased.next = self.holes[i].erased.val();
+            self.merge[i].starts.next = self.dispatcher.start.val().valid;
+            self.merge[i].asks.next = self.holes[i].push_valid.val();
+            self.merge[i].attempt_is_done.next = self.attempts.is_done.val();
+            self.holes[i].may_end.next = self.merge[i].may_end.val();
+            self.holes[i].pushes.next = self.merge[i].pushes.val();
+            self.follow.next = self.merge[i].merged_follow.val();
+            self.dispatcher.outcome.next = self.merge[i].merged_outcome.val();
+            self.dispatcher.is_done.next = self.merge[i].merged_is_done.val();
+            self.dispatcher.may_ask.next = self.merge[i].may_ask.val();
+            self.dispatcher.fill_ends[i].next = self.merge[i].ends.val();
+            self.dispatcher.fill_end[i].next = self.merge[i].granted.val();
+            self.dispatcher.erases[i].next = self.merge[i].erases.val();
+            self.commits.lock.next = self.merge[i].merged_lock.val();
+            self.commits.releases.next = self.merge[i].merged_release.val();
+            self.commits.erases[i].next = self.merge[i].erases.val();
+            self.commits.erased[i].next = self.merge[i].erased_locks.val();
+            self.commits.kept[i].next = self.holes[i].kept.val();
+            self.commits.start[i].next = self.dispatcher.start.val();
+            self.commits.owns[i].next = self.launches[i].val() & self.launch_owns[i].val();
+            self.commits.solo_start[i].next = self.dispatcher.solo_start.val();
+            self.commits.solo_is_at_work[i].next = self.solo.val().is_at_work;
+            self.solo_first[i].next = self.commits.solo_first[i].val();
+            self.solo_second[i].next = self.commits.solo_second[i].val();
+            self.erases[i].next = self.merge[i].erases.val();
+            self.returns[i].next = self.commits.returns[i].val();
+            self.fill_push[i].next = self.holes[i].push.val();
+            self.fill_pushes[i].next = self.merge[i].pushes.val();
+            self.view[i].outcome.next = self.merge[i].merged_outcome.val();
+            self.view[i].may_ask.next = self.merge[i].may_ask.val();
+            self.view[i].erased.next = self.holes[i].erased.val();
+            self.view[i].fill_end.next = self.merge[i].granted.val();
+            self.merge[i].write.next = self.commits.write.val();
+            self.merge[i].hole_write.next = self.holes[i].write.val();
+            self.write.next = self.merge[i].merged_write.val();
+            if self.merge[i].is_done_now.val() {
+                self.visit_events.next.aborts = self.merge[i].aborts.val();
+                self.visit_events.next.revisit = self.merge[i].revisits.val();
+            }
+            self.events.next.visits = self.visit_events.val();
         }
     }
 }

@@ -28,6 +28,8 @@ pub struct ChangeEnds {
     pub context_id: Signal<In, ContextId>,
     pub number: Signal<In, ItemNumber>,
     pub corner: Signal<In, VertexId>,
+    /// The run is one of `Delete`.
+    pub is_delete: Signal<In, Bit>,
     /// An item is refused, because its vertex lies beyond the capacity or is in use; its number and its vertex. There
     /// is room for its part (`has_room`), and the part is given (`is_noted`).
     pub refuses: Signal<In, Bit>,
@@ -43,6 +45,9 @@ pub struct ChangeEnds {
     pub raised: Signal<Out, VertexId>,
     pub unmarks: Signal<Out, Bit>,
     pub unmarked: Signal<Out, VertexId>,
+    /// A vertex cannot be deleted, and stays in use.
+    pub remarks: Signal<Out, Bit>,
+    pub remarked: Signal<Out, VertexId>,
     /// Number of the item that each context has handed over. A context hands its next item over only after the commit
     /// of this one, because its next root visit waits for that (L6).
     handed: LutMemory<CONTEXT_BITS, 24>,
@@ -60,11 +65,20 @@ pub struct ChangeEnds {
     is_early: Signal<Local, Bit>,
     duplicate_outcome: Signal<Local, Bits<4>>,
     gives: Signal<Local, Bit>,
+    hands_over: Signal<Local, Bit>,
+    is_refused: Signal<Local, Bit>,
+    is_flat: Signal<Local, Bit>,
 }
 
 // The kernel holds the outcomes as literals, because rust-hdl allows no constants there.
 const _: () = assert!(
-    Outcome::Done as u8 == 0 && Outcome::Duplicate as u8 == 5 && Outcome::InUse as u8 == 7 && Outcome::Full as u8 == 8,
+    Outcome::Done as u8 == 0
+        && Outcome::Duplicate as u8 == 5
+        && Outcome::Missing as u8 == 6
+        && Outcome::InUse as u8 == 7
+        && Outcome::Full as u8 == 8
+        && Outcome::ManyNeighbors as u8 == 10
+        && Outcome::Flat as u8 == 11,
     "the outcomes of this block follow the protocol"
 );
 
@@ -86,15 +100,30 @@ impl Logic for ChangeEnds {
         self.last_number.d.next = self.number.val();
         self.last_corner.d.next = self.corner.val();
 
-        self.ends.next.valid = self.events.val().hands_over | self.events.val().duplicate | self.events.val().solo_ends;
+        self.is_flat.next = self.events.val().fill_is_flat;
+        self.hands_over.next =
+            self.events.val().hands_over | (self.events.val().fill_ends & (!self.events.val().fill_is_flat));
+        self.is_refused.next = self.is_flat.val() | (self.is_delete.val() & self.events.val().duplicate);
+        self.ends.next.valid = self.events.val().hands_over
+            | self.events.val().duplicate
+            | self.events.val().solo_ends
+            | self.events.val().fill_ends;
         self.ends.next.context = self.context_id.val();
+        if self.events.val().fill_ends {
+            self.ends.next.context = self.events.val().fill_context;
+        }
         if self.events.val().solo_ends {
             self.ends.next.context = self.events.val().solo_context;
         }
         self.raises.next = self.events.val().commit_ends | self.events.val().solo_inserts;
         self.raised.next = self.events.val().committed_vertex;
-        self.unmarks.next =
-            self.events.val().duplicate | (self.events.val().solo_ends & (!self.events.val().solo_inserts));
+        self.unmarks.next = (self.events.val().duplicate & (!self.is_delete.val()))
+            | (self.events.val().solo_ends & (!self.events.val().solo_inserts));
+        self.remarks.next = self.is_refused.val();
+        self.remarked.next = self.events.val().vertex;
+        if self.is_flat.val() {
+            self.remarked.next = self.events.val().fill_vertex;
+        }
         self.unmarked.next = self.events.val().vertex;
         if self.events.val().solo_ends {
             self.raised.next = self.last_vertex.q.val();
@@ -103,8 +132,11 @@ impl Logic for ChangeEnds {
 
         // The next item of the context may begin before the commit of this one is over, so its number is kept.
         self.handed.write_address.next = self.context_id.val();
+        if self.events.val().fill_ends {
+            self.handed.write_address.next = self.events.val().fill_context;
+        }
         self.handed.write_data.next = self.number.val();
-        self.handed.write_enable.next = self.events.val().hands_over;
+        self.handed.write_enable.next = self.hands_over.val();
         self.handed.read_address.next = self.events.val().committed_context;
         self.pushed.next.number = self.handed.read_data.val();
         self.pushed.next.vertex = self.events.val().committed_vertex;
@@ -114,7 +146,7 @@ impl Logic for ChangeEnds {
         self.done.push_data.next = self.pushed_bits.val();
         self.first.bits.next = self.done.data.val();
 
-        self.is_early.next = self.events.val().duplicate | self.events.val().solo_ends;
+        self.is_early.next = self.events.val().duplicate | self.events.val().solo_ends | self.is_flat.val();
         self.done.pop.next = self.done.valid.val() & (!self.is_early.val());
         self.gives.next = self.refuses.val() & self.has_room.val() & (!self.is_early.val()) & (!self.done.valid.val());
         self.is_noted.next = self.gives.val();
@@ -133,11 +165,23 @@ impl Logic for ChangeEnds {
             if self.is_beyond.val() {
                 self.finding.next.outcome = 8.into();
             }
+            if self.is_delete.val() {
+                self.finding.next.outcome = 6.into();
+            }
         }
         if self.events.val().duplicate {
             self.part.next.number = self.number.val();
             self.finding.next.outcome = self.duplicate_outcome.val();
             self.finding.next.v0 = self.corner.val();
+        }
+        if self.is_refused.val() {
+            self.part.next.number = self.number.val();
+            self.finding.next.outcome = 10.into();
+            self.finding.next.v0 = self.events.val().vertex;
+            if self.is_flat.val() {
+                self.finding.next.outcome = 11.into();
+                self.finding.next.v0 = self.events.val().fill_vertex;
+            }
         }
         if self.events.val().solo_ends {
             self.part.next.number = self.last_number.q.val();

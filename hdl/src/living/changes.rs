@@ -1,4 +1,4 @@
-//! The changes of a mesh that stands: runs of `InsertAs`, and all points of an `Insert` that comes after one.
+//! The changes of a mesh that stands: runs of `InsertAs` and `Delete`, and all points of an `Insert` that comes after one.
 //!
 //! ```text
 //! RunPort ----> VertexCheck --+--> ItemQueues -> launches: a context of the insertion engine starts
@@ -19,6 +19,7 @@ use super::types::{ContextEnd, DealtItem, Item, ItemNumber, Launch, PartCame};
 use super::vertex_check::VertexCheck;
 use crate::commands::types::{VertexCount, Word};
 use crate::engine::types::{Arrival, ChangeEvents, ContextId, VertexId};
+use crate::predicate::Point;
 use crate::prelude::*;
 use incircle_protocol::Config;
 
@@ -37,6 +38,7 @@ pub struct Changes {
     /// A run is under way; it is an `InsertAs`.
     pub is_active: Signal<In, Bit>,
     pub is_change: Signal<In, Bit>,
+    pub is_delete: Signal<In, Bit>,
     /// The item on offer, its vertex, and whether it is done with; the item for the queues, and whether they take it.
     pub dealt: Signal<In, DealtItem>,
     pub vertex: Signal<In, Word>,
@@ -67,10 +69,15 @@ pub struct Changes {
     /// A vertex is in the mesh.
     pub raises: Signal<Out, Bit>,
     pub raised: Signal<Out, VertexId>,
+    /// For a `Delete`, as the ports of [`VertexCheck`] of these names.
+    pub wanted: Signal<Out, VertexId>,
+    pub fetches: Signal<In, Bit>,
+    pub fetched: Signal<In, Point>,
     check: VertexCheck,
     step: ChangeEnds,
     late: LatePoints,
     changed: DFF<Bit>,
+    deletes: Signal<Local, Bit>,
     item: Signal<Local, Item>,
     dealt_item: Signal<Local, Item>,
 }
@@ -92,6 +99,7 @@ impl Logic for Changes {
         self.late.reset.next = self.reset.val();
         self.check.clears.next = self.clears.val();
         self.late.clears.next = self.clears.val();
+        self.deletes.next = self.is_active.val() & self.is_delete.val();
         self.runs.next = self.is_active.val() & self.is_change.val();
         self.has_changed.next = self.changed.q.val();
         self.item.next = self.launch.val().item;
@@ -104,10 +112,19 @@ impl Logic for Changes {
         self.check.vertex.next = self.vertex.val();
         self.check.accepted.next = self.accepted.val() & self.is_active.val();
         self.check.is_noted.next = self.step.is_noted.val();
-        self.check.marks.next = self.launches.val() | self.events.val().takes;
+        self.check.is_delete.next = self.is_delete.val() & self.is_active.val();
+        self.check.fetches.next = self.fetches.val();
+        self.check.fetched.next = self.fetched.val();
+        self.wanted.next = self.check.wanted.val();
+        self.check.marks.next =
+            (self.launches.val() & (!self.deletes.val())) | self.events.val().takes | self.step.remarks.val();
+        self.check.disowns.next = !(self.is_active.val() & self.is_change.val());
         self.check.marked.next = self.events.val().taken;
         if self.launches.val() {
             self.check.marked.next = self.item.val().vertex;
+        }
+        if self.step.remarks.val() {
+            self.check.marked.next = self.step.remarked.val();
         }
         self.check.unmarks.next = self.step.unmarks.val();
         self.check.unmarked.next = self.step.unmarked.val();
@@ -125,6 +142,7 @@ impl Logic for Changes {
             self.queued.next = self.check.offered.val();
         }
 
+        self.step.is_delete.next = self.deletes.val();
         self.step.runs.next = self.is_active.val() & self.is_change.val();
         self.step.events.next = self.events.val();
         self.step.context_id.next = self.context_id.val();

@@ -28,12 +28,14 @@ pub struct PartBeat {
     third: Signal<Local, BeatNumber>,
     fourth: Signal<Local, BeatNumber>,
     full_outcome: Signal<Local, Bits<4>>,
+    missing_outcome: Signal<Local, Bits<4>>,
 }
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
     incircle_protocol::OUTCOME_SHIFT == 24
         && incircle_protocol::RunKind::Interpolate.part_words() == 10
+        && incircle_protocol::Outcome::Missing as u8 == 6
         && incircle_protocol::Outcome::Full as u8 == 8,
     "the words of this block follow the protocol"
 );
@@ -47,6 +49,7 @@ impl Logic for PartBeat {
         self.third.next = 2.into();
         self.fourth.next = 3.into();
         self.full_outcome.next = 8.into();
+        self.missing_outcome.next = 6.into();
         self.finding.next = self.part.val().finding;
         self.wide_outcome.next = bit_cast::<32, 4>(self.finding.val().outcome);
         self.shifted_outcome.next = self.wide_outcome.val() << self.outcome_shift.val();
@@ -56,7 +59,9 @@ impl Logic for PartBeat {
         if self.beat.val() == self.first.val() {
             self.low.next = self.shifted_outcome.val() | self.wide_number.val();
             self.high.next = bit_cast::<32, 15>(self.finding.val().v0);
-            if self.finding.val().outcome == self.full_outcome.val() {
+            if (self.finding.val().outcome == self.full_outcome.val())
+                | (self.finding.val().outcome == self.missing_outcome.val())
+            {
                 self.high.next = self.finding.val().w0;
             }
         }

@@ -54,6 +54,7 @@ pub struct QuestionStep {
     is_walk: Signal<Local, Bit>,
     is_near: Signal<Local, Bit>,
     is_ghost: Signal<Local, Bit>,
+    located: Signal<Local, Bit>,
     sees: Signal<Local, Bit>,
     stands: Signal<Local, Bit>,
     passes_by: Signal<Local, Bit>,
@@ -81,9 +82,12 @@ impl Logic for QuestionStep {
         self.looks.next = self.entry.val().get_bit(3);
         self.is_walk.next = (!self.is_search.val()) & (!self.is_chain.val()) & (!self.looks.val());
         self.is_ghost.next = self.turned.val().infinite0 | self.turned.val().infinite1 | self.turned.val().infinite2;
-        self.sees.next = self.is_ghost.val() & self.verdict.val().located;
-        self.stands.next = (!self.is_ghost.val()) & self.verdict.val().located & (!self.is_search.val());
-        self.passes_by.next = self.is_search.val() & (!self.verdict.val().located);
+        // M8: a free record leads on.
+        self.located.next = self.verdict.val().located
+            & (!(self.turned.val().infinite0 & self.turned.val().infinite1 & self.turned.val().infinite2));
+        self.sees.next = self.is_ghost.val() & self.located.val();
+        self.stands.next = (!self.is_ghost.val()) & self.located.val() & (!self.is_search.val());
+        self.passes_by.next = self.is_search.val() & (!self.located.val());
 
         // Counter-clockwise, a ghost triangle has the infinite vertex, the end and the start of its hull edge. The
         // ghost triangle before it lies opposite the end.
@@ -117,15 +121,14 @@ impl Logic for QuestionStep {
         }
         self.ends.next = self.completion.val().done & (self.stands.val() | self.passes_by.val());
         self.asks.next = self.completion.val().done & (!self.stands.val()) & (!self.passes_by.val());
-        self.arrives.next = self.completion.val().done & self.verdict.val().located & self.is_walk.val();
+        self.arrives.next = self.completion.val().done & self.located.val() & self.is_walk.val();
 
         self.search.completion.next = self.completion.val();
         self.search.nearest.next = self.nearest.val();
         self.search.follows.next = self.completion.val().done & self.is_chain.val();
         self.search.begins.next =
             (self.completion.val().done & self.looks.val()) | (self.is_nearest.val() & self.arrives.val());
-        self.is_near.next =
-            self.is_chain.val() | self.looks.val() | (self.is_nearest.val() & self.verdict.val().located);
+        self.is_near.next = self.is_chain.val() | self.looks.val() | (self.is_nearest.val() & self.located.val());
         if self.is_near.val() {
             self.ends.next = self.search.ends.val();
             self.asks.next = self.search.asks.val();

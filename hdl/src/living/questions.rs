@@ -33,7 +33,7 @@ use crate::engine::types::{
     TriangleId, VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
-use crate::predicate::Sides;
+use crate::predicate::{Point, Sides};
 use crate::prelude::*;
 use incircle_protocol::Config;
 
@@ -77,6 +77,13 @@ pub struct Questions {
     /// The context of an item of a change starts to walk, to the place in `position`; its point has to be stored.
     pub start: Signal<Out, Start>,
     pub stored: Signal<Out, Arrival>,
+    /// Ids are kept for the vertex of the item; a run of deletions is under way; and the ports of [`Changes`] of these
+    /// names.
+    pub owns: Signal<Out, Bit>,
+    pub deletes: Signal<Out, Bit>,
+    pub wanted: Signal<Out, VertexId>,
+    pub fetches: Signal<In, Bit>,
+    pub fetched: Signal<In, Point>,
     changes: Changes,
     is_question: Signal<Local, Bit>,
     may_launch: Signal<Local, Bit>,
@@ -188,7 +195,9 @@ impl Logic for Questions {
         self.start.next.record = self.start_record.val();
         self.start.next.takes = true;
         self.start.next.id = self.item.val().vertex;
-        self.stored.next.came = self.launches.val() & self.changes.runs.val();
+        self.deletes.next = self.port.is_active.val() & self.port.is_delete.val();
+        self.owns.next = self.item.val().owns;
+        self.stored.next.came = self.launches.val() & self.changes.runs.val() & (!self.port.is_delete.val());
         self.stored.next.id = self.item.val().vertex;
         self.stored.next.point = self.item.val().place;
         self.numbers.write_address.next = self.launch.val().context;
@@ -198,6 +207,9 @@ impl Logic for Questions {
         // A walk can end before its item does, because outside the hull a search follows. The next walk of the context
         // begins where the walk has ended, and not where the search has.
         self.numbers.read_address.next = self.visit.val().context;
+        if self.events.val().fill_ends {
+            self.numbers.read_address.next = self.events.val().fill_context;
+        }
         self.number.next = self.numbers.read_data.val();
         self.part.next.number = self.number.val();
         self.part.next.finding = self.step.finding.val();
@@ -232,6 +244,10 @@ impl Logic for Questions {
         self.changes.arrival.next = self.arrival.val();
         self.changes.is_active.next = self.port.is_active.val();
         self.changes.is_change.next = self.port.is_change.val();
+        self.changes.is_delete.next = self.port.is_delete.val();
+        self.changes.fetches.next = self.fetches.val();
+        self.changes.fetched.next = self.fetched.val();
+        self.wanted.next = self.changes.wanted.val();
         self.changes.dealt.next = self.port.dealt.val();
         self.changes.vertex.next = self.port.vertex.val();
         self.changes.accepted.next = self.queues.taken.val();

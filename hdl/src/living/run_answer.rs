@@ -41,7 +41,9 @@ pub struct RunAnswer {
 const _: () = {
     let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words(), RunKind::Nearest.part_words()];
     assert!(words[0] == 4 && words[1] == 10 && words[2] == 2, "the numbers of this block follow the protocol");
-    assert!(RunKind::InsertAs.part_words() == words[2], "two kinds of parts have two words");
+    assert!(RunKind::InsertAs.part_words() == words[2], "three kinds of parts have two words");
+    assert!(RunKind::Delete.part_words() == words[2], "three kinds of parts have two words");
+    assert!(Opcode::Delete as u8 & 4 == 4, "a third bit of the opcode decides");
     let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32, u32::MAX / words[2] as u32];
     assert!(most[0] == 1_073_741_823 && most[1] == 429_496_729, "the most items that can be counted");
     assert!(most[2] == 2_147_483_647, "the most items that can be counted");
@@ -57,7 +59,7 @@ impl Logic for RunAnswer {
         self.three.next = 3.into();
         self.status_shift.next = 16.into();
         self.code_shift.next = 24.into();
-        self.is_short.next = self.code.val().get_bit(1);
+        self.is_short.next = self.code.val().get_bit(1) | self.code.val().get_bit(2);
         self.is_weighed.next = self.code.val().get_bit(0) & (!self.is_short.val());
         self.most.next = 1073741823.into();
         self.head.next.length = self.count.val() << self.two.val();

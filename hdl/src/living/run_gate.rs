@@ -34,6 +34,7 @@ pub struct RunGate {
     interpolate_code: Signal<Local, Bits<8>>,
     nearest_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
+    delete_code: Signal<Local, Bits<8>>,
 }
 
 // The kernel holds the opcodes as literals, because rust-hdl allows no constants there. A changed protocol fails here.
@@ -41,7 +42,8 @@ const _: () = assert!(
     Opcode::Locate as u8 == 8
         && Opcode::Interpolate as u8 == 9
         && Opcode::Nearest as u8 == 10
-        && Opcode::InsertAs as u8 == 11,
+        && Opcode::InsertAs as u8 == 11
+        && Opcode::Delete as u8 == 12,
     "the opcodes of this block follow the protocol"
 );
 
@@ -52,6 +54,7 @@ impl Logic for RunGate {
         self.interpolate_code.next = 9.into();
         self.nearest_code.next = 10.into();
         self.insert_code.next = 11.into();
+        self.delete_code.next = 12.into();
         self.code.next = self.command.data.val().get_bits::<8>(24);
         self.opcode.next = self.code.val();
         self.begins.next = self.command.valid.val()
@@ -60,7 +63,8 @@ impl Logic for RunGate {
             & ((self.code.val() == self.locate_code.val())
                 | (self.code.val() == self.interpolate_code.val())
                 | (self.code.val() == self.nearest_code.val())
-                | (self.code.val() == self.insert_code.val()));
+                | (self.code.val() == self.insert_code.val())
+                | (self.code.val() == self.delete_code.val()));
         self.core_command.data.next = self.command.data.val();
         self.core_command.valid.next = self.command.valid.val() & (!self.is_active.val()) & (!self.begins.val());
         self.run_command.data.next = self.command.data.val();

@@ -68,8 +68,9 @@ pub struct RunPort {
     /// The item on offer to the contexts, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
     pub taken: Signal<In, Bit>,
-    /// The run under way, or the last one, is an `InsertAs`; the vertex of the item on offer.
+    /// The run under way, or the last one, is an `InsertAs` or a `Delete`, and which; the vertex of the item on offer.
     pub is_change: Signal<Out, Bit>,
+    pub is_delete: Signal<Out, Bit>,
     pub vertex: Signal<Out, Word>,
     pub head: Signal<Out, RunHead>,
     /// The last word of the answer has been taken and, after changes, all locks are released; from the clock after
@@ -91,6 +92,8 @@ pub struct RunPort {
     vertex_came: DFF<Bit>,
     is_vertex: Signal<Local, Bit>,
     change_code: Signal<Local, Bits<8>>,
+    delete_code: Signal<Local, Bits<8>>,
+    deletes: Signal<Local, Bit>,
     starts: Signal<Local, Bit>,
     awaits_item: Signal<Local, Bit>,
     passes_item: Signal<Local, Bit>,
@@ -101,7 +104,10 @@ pub struct RunPort {
 
 // The kernel holds the numbers as literals, because rust-hdl allows no constants there. A changed protocol fails here.
 const _: () = assert!(
-    Status::BadRange as u8 == 2 && Status::NoMesh as u8 == 7 && Opcode::InsertAs as u8 == 11,
+    Status::BadRange as u8 == 2
+        && Status::NoMesh as u8 == 7
+        && Opcode::InsertAs as u8 == 11
+        && Opcode::Delete as u8 == 12,
     "the numbers of this block follow the protocol"
 );
 
@@ -112,7 +118,10 @@ impl Logic for RunPort {
         clock!(self, clock, dealer);
         self.one.next = 1.into();
         self.change_code.next = 11.into();
-        self.is_change.next = self.code.q.val() == self.change_code.val();
+        self.delete_code.next = 12.into();
+        self.deletes.next = self.code.q.val() == self.delete_code.val();
+        self.is_delete.next = self.deletes.val();
+        self.is_change.next = (self.code.q.val() == self.change_code.val()) | self.deletes.val();
         self.is_vertex.next = (self.code.q.val() == self.change_code.val()) & (!self.vertex_came.q.val());
         self.is_active.next = self.state.q.val() != RunState::Idle;
         self.is_nearest.next = self.code.q.val().get_bit(1) & (!self.code.q.val().get_bit(0));
@@ -135,7 +144,8 @@ impl Logic for RunPort {
         self.dealer.starts.next = self.starts.val();
         self.dealer.contexts.next = self.contexts.val();
         self.dealer.takes.next = self.awaits_item.val() & self.command.valid.val() & (!self.is_vertex.val());
-        self.dealer.takes_vertex.next = self.takes_word.val() & self.is_vertex.val();
+        // The item of a `Delete` is its vertex alone.
+        self.dealer.takes_vertex.next = self.takes_word.val() & (self.is_vertex.val() | self.deletes.val());
         self.vertex.next = self.dealer.vertex.val();
         self.dealer.word.next = self.command.data.val();
         self.dealer.taken.next = self.taken.val();

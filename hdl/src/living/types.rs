@@ -20,11 +20,12 @@ pub const QUEUE_COUNT_BITS: usize = DEPTH_BITS + 1;
 pub const PART_ADDRESS_BITS: usize = 5;
 
 crate::packed! {
-    /// An item of a run: its place, and for an `InsertAs` its vertex.
+    /// An item of a run: its place, and for a change its vertex, and whether ids are kept for that.
     pub struct Item {
         pub number: Bits<24>,
         pub place: Point,
         pub vertex: VertexId,
+        pub owns: bool,
     }
 
     /// An item for a context.
@@ -54,8 +55,8 @@ crate::packed! {
     }
 
     /// The outcome of an item and the vertices that it names, each with its weight. Vertices that it does not name
-    /// are 0, and so are their weights and all weights outside the hull. With the outcome `Full`, the vertex of the
-    /// item stands in `w0`, because it can be any word.
+    /// are 0, and so are their weights and all weights outside the hull. With the outcomes `Missing` and `Full`, the
+    /// vertex of the item stands in `w0`, because it can be any word.
     pub struct Finding {
         pub outcome: Bits<4>,
         pub v0: VertexId,

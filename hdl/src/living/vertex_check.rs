@@ -1,5 +1,5 @@
-//! Looks whether the vertex of an item can be inserted, before the item goes to its context: a bit for each vertex says
-//! whether the vertex is in use.
+//! Looks whether the vertex of an item can be inserted or deleted, before the item goes to its context: a bit for each
+//! vertex says whether the vertex is in use, and another whether ids are kept for it.
 //!
 //! 1. A vertex at or beyond the capacity is refused with the outcome `Full`, and one in use with `InUse`. Every other
 //!    vertex is in use from then on, so a second item of the run with the same vertex is refused.
@@ -10,14 +10,18 @@
 //! 4. At most one of `marks` and `unmarks` is high. It has the write port first; the block's own read or write waits a
 //!    clock.
 //! 5. Items of a question go through without a look.
+//! 6. A vertex to delete is refused with the outcome `Missing` if it is not in use. Otherwise it is not in use from then
+//!    on, and owns ids that are kept for it. Its point is fetched and becomes the place of the item.
+//! 7. A vertex that comes with an `Insert` owns none (`disowns`), and neither does one that was never known.
 //!
 //! Latency: 4 clocks from an item to its offer or refusal, and one more for each bit that is cleared; none for a
 //! question.
 
-use super::types::DealtItem;
+use super::types::{DealtItem, Item};
 use crate::commands::types::{VertexCount, Word};
 use crate::engine::types::VertexId;
 use crate::leaf::BlockMemory;
+use crate::predicate::Point;
 use crate::prelude::*;
 use incircle_protocol::{vertex_id_bits, Config};
 
@@ -51,6 +55,7 @@ pub struct VertexCheck {
     /// edge (`taken`).
     pub dealt: Signal<In, DealtItem>,
     pub is_change: Signal<In, Bit>,
+    pub is_delete: Signal<In, Bit>,
     pub vertex: Signal<In, Word>,
     pub taken: Signal<Out, Bit>,
     /// The item on offer to its context, and whether it is taken at this edge.
@@ -64,14 +69,30 @@ pub struct VertexCheck {
     /// A vertex comes into use, or falls out of use, at this edge.
     pub marks: Signal<In, Bit>,
     pub marked: Signal<In, VertexId>,
+    pub disowns: Signal<In, Bit>,
     pub unmarks: Signal<In, Bit>,
     pub unmarked: Signal<In, VertexId>,
+    /// A vertex whose point is wanted, unless the vertex memory is asked for another one (`fetches`), and its point two
+    /// clocks later.
+    pub wanted: Signal<Out, VertexId>,
+    pub fetches: Signal<In, Bit>,
+    pub fetched: Signal<In, Point>,
     state: DFF<CheckState>,
     known: DFF<VertexCount>,
     /// Number of vertices that are still to be marked after a clear.
     seeding: DFF<Bits<2>>,
     beyond: DFF<Bit>,
     in_use: BlockMemory<15, 1>,
+    owners: BlockMemory<15, 1>,
+    /// The bits and the point were asked for one clock ago, and two clocks ago.
+    asked1: DFF<Bit>,
+    asked2: DFF<Bit>,
+    kept_use: DFF<Bit>,
+    kept_place: DFF<Point>,
+    owns: DFF<Bit>,
+    is_used: Signal<Local, Bit>,
+    dealt_item: Signal<Local, Item>,
+    built: Signal<Local, Item>,
     is_taken: Signal<Local, Bit>,
     is_high: Signal<Local, Bit>,
     is_unknown: Signal<Local, Bit>,
@@ -88,15 +109,16 @@ pub struct VertexCheck {
 impl VertexCheck {
     /// The check of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
-        Self { in_use: BlockMemory::new(vertex_id_bits(config.points) as usize - 1, 1), ..Self::default() }
+        let bits = |of: Config| BlockMemory::new(vertex_id_bits(of.points) as usize - 1, 1);
+        Self { in_use: bits(config), owners: bits(config), ..Self::default() }
     }
 }
 
 impl Logic for VertexCheck {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, known, seeding, beyond);
-        clock!(self, clock, in_use);
+        dff_setup!(self, clock, state, known, seeding, beyond, asked1, asked2, kept_use, kept_place, owns);
+        clock!(self, clock, in_use, owners);
         self.one.next = 1.into();
         self.one_seed.next = 1.into();
         self.asked.next = self.vertex.val().get_bits::<15>(0);
@@ -108,7 +130,27 @@ impl Logic for VertexCheck {
         self.refuses.next = self.state.q.val() == CheckState::Refuse;
         self.is_beyond.next = self.beyond.q.val();
         self.is_reached.next = self.state.q.val() == CheckState::Offer;
-        self.offered.next = self.dealt.val();
+        self.wanted.next = self.asked.val();
+        self.asked1.d.next = false;
+        self.asked2.d.next = self.asked1.q.val();
+        self.is_used.next = self.kept_use.q.val();
+        if self.asked2.q.val() {
+            self.is_used.next = self.in_use.read_data.val().any();
+            self.kept_use.d.next = self.in_use.read_data.val().any();
+            self.kept_place.d.next = self.fetched.val();
+            self.owns.d.next = self.owners.read_data.val().any();
+        }
+        self.dealt_item.next = self.dealt.val().item;
+        self.built.next = self.dealt_item.val();
+        if self.is_change.val() {
+            self.built.next.vertex = self.asked.val();
+            self.built.next.owns = self.owns.q.val();
+        }
+        if self.is_delete.val() {
+            self.built.next.place = self.kept_place.q.val();
+        }
+        self.offered.next.context = self.dealt.val().context;
+        self.offered.next.item = self.built.val();
         self.offered.next.valid = self.dealt.val().valid & (self.is_reached.val() | (!self.is_change.val()));
         self.taken.next = self.accepted.val() | ((self.state.q.val() == CheckState::Refuse) & self.is_noted.val());
 
@@ -120,6 +162,10 @@ impl Logic for VertexCheck {
         self.in_use.write_address.next = self.unmarked.val();
         self.in_use.write_data.next = 0.into();
         self.in_use.write_enable.next = self.unmarks.val();
+        self.owners.read_address.next = self.asked.val();
+        self.owners.write_address.next = self.marked.val();
+        self.owners.write_data.next = 0.into();
+        self.owners.write_enable.next = self.marks.val() & self.disowns.val();
         if self.marks.val() {
             self.in_use.write_address.next = self.marked.val();
             self.in_use.write_data.next = 1.into();
@@ -129,6 +175,8 @@ impl Logic for VertexCheck {
             self.in_use.write_address.next = bit_cast::<15, 2>(self.seed.val());
             self.in_use.write_data.next = 1.into();
             self.in_use.write_enable.next = true;
+            self.owners.write_address.next = bit_cast::<15, 2>(self.seed.val());
+            self.owners.write_enable.next = true;
             self.seeding.d.next = self.seed.val();
         }
         if self.known.q.val() < self.arrived.val() {
@@ -142,7 +190,8 @@ impl Logic for VertexCheck {
                 }
             }
             CheckState::Look => {
-                if !self.is_taken.val() {
+                if (!self.is_taken.val()) & (!(self.fetches.val())) {
+                    self.asked1.d.next = true;
                     self.state.d.next = CheckState::Fetch;
                 }
             }
@@ -151,11 +200,23 @@ impl Logic for VertexCheck {
             }
             CheckState::Judge => {
                 self.beyond.d.next = self.is_high.val();
-                if self.is_high.val() {
+                if self.is_delete.val() {
+                    if self.is_high.val() | self.is_unknown.val() | (!self.is_used.val()) {
+                        self.state.d.next = CheckState::Refuse;
+                    } else if !self.is_taken.val() {
+                        self.in_use.write_address.next = self.asked.val();
+                        self.in_use.write_data.next = 0.into();
+                        self.in_use.write_enable.next = true;
+                        self.owners.write_address.next = self.asked.val();
+                        self.owners.write_data.next = 1.into();
+                        self.owners.write_enable.next = true;
+                        self.state.d.next = CheckState::Offer;
+                    }
+                } else if self.is_high.val() {
                     self.state.d.next = CheckState::Refuse;
                 } else if self.is_unknown.val() {
                     self.state.d.next = CheckState::Raise;
-                } else if self.in_use.read_data.val().any() {
+                } else if self.is_used.val() {
                     self.state.d.next = CheckState::Refuse;
                 } else if !self.is_taken.val() {
                     self.in_use.write_address.next = self.asked.val();
@@ -166,6 +227,9 @@ impl Logic for VertexCheck {
             }
             CheckState::Raise => {
                 if !self.is_taken.val() {
+                    self.owns.d.next = false;
+                    self.owners.write_address.next = self.known.q.val();
+                    self.owners.write_enable.next = true;
                     self.in_use.write_address.next = self.known.q.val();
                     self.in_use.write_data.next = 0.into();
                     self.in_use.write_enable.next = true;
@@ -192,6 +256,8 @@ impl Logic for VertexCheck {
         }
         if self.reset.val() | self.clears.val() {
             self.state.d.next = CheckState::Idle;
+            self.asked1.d.next = false;
+            self.asked2.d.next = false;
             self.known.d.next = 0.into();
             self.seeding.d.next = 2.into();
         }

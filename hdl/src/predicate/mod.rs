@@ -12,6 +12,7 @@
 //! In a core that answers questions, `SideDelay` also gives the values of the three orient2d, and `CornerPairs`
 //! compares the distances of the corners.
 
+mod apex_side;
 mod corner_pairs;
 mod cross_product;
 mod dot_product;
@@ -24,6 +25,7 @@ mod visit_predicates;
 mod wide_product;
 mod widths;
 
+pub use apex_side::ApexSide;
 pub use corner_pairs::CornerPairs;
 pub use cross_product::CrossProduct;
 pub use dot_product::DotProduct;

@@ -14,6 +14,7 @@
 //! Source: the Cline-Renka form of incircle (A. K. Cline, R. J. Renka, 1984). 20 multipliers: 12 for the small
 //! products, 8 for the large ones. A core with questions has ten more, in [`CornerPairs`].
 
+use super::apex_side::ApexSide;
 use super::corner_pairs::CornerPairs;
 use super::cross_product::CrossProduct;
 use super::dot_product::DotProduct;
@@ -36,6 +37,8 @@ pub struct VisitPredicates {
     pub sides: Vec<Signal<Out, Sides>>,
     /// In such a core as well: the comparisons of the corners, 5 clocks after them.
     pub pairs: Vec<Signal<Out, PairFlags>>,
+    /// And whether the corners turn left.
+    pub turns_left: Vec<Signal<Out, Bit>>,
     p_to_r0: PointDifference,
     p_to_r1: PointDifference,
     p_to_r2: PointDifference,
@@ -50,6 +53,7 @@ pub struct VisitPredicates {
     edges: EdgeSigns,
     side_delay: Vec<SideDelay>,
     corner_pairs: Vec<CornerPairs>,
+    apex_side: Vec<ApexSide>,
     order: VertexOrder,
     point_by_apex: WideProduct,
     apex_by_point: WideProduct,
@@ -72,6 +76,8 @@ impl VisitPredicates {
         Self {
             sides: vec![Signal::default()],
             pairs: vec![Signal::default()],
+            turns_left: vec![Signal::default()],
+            apex_side: vec![ApexSide::new(Self::LATENCY - CrossProduct::LATENCY)],
             corner_pairs: vec![CornerPairs::default()],
             side_delay: vec![SideDelay::new(Self::LATENCY - CrossProduct::LATENCY)],
             ..Self::default()
@@ -88,6 +94,8 @@ impl Default for VisitPredicates {
             signs: Signal::default(),
             sides: Vec::new(),
             pairs: Vec::new(),
+            turns_left: Vec::new(),
+            apex_side: Vec::new(),
             p_to_r0: PointDifference::default(),
             p_to_r1: PointDifference::default(),
             p_to_r2: PointDifference::default(),
@@ -174,6 +182,9 @@ impl Logic for VisitPredicates {
             self.corner_pairs[i].p.next = self.p.val();
             self.corner_pairs[i].r1_by_r2.next = self.dot_point.product.val();
             self.pairs[i].next = self.corner_pairs[i].flags.val();
+            self.apex_side[i].clock.next = self.clock.val();
+            self.apex_side[i].product.next = self.cross_apex.product.val();
+            self.turns_left[i].next = self.apex_side[i].is_left.val();
         }
         self.point_by_apex.a.next = self.cross_0.product.val();
         self.point_by_apex.b.next = self.dot_apex.product.val();

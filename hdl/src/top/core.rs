@@ -10,7 +10,7 @@
 //!                 +--- AnswerHead, AnswerWords <- Counters, Latencies <- events
 //! ```
 
-use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, Responder};
+use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, LivingTally, Responder};
 use crate::engine::{
     Arrival, Bundle, ChangeEvents, Completion, ContextId, Counters, InsertionEngine, Latencies, NearVerdict, Position,
     Start, VertexId, Write,
@@ -18,7 +18,7 @@ use crate::engine::{
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
 use crate::living::StandingView;
-use crate::predicate::Sides;
+use crate::predicate::{Point, Sides};
 use incircle_protocol::{infinite_vertex, patience, triangle_capacity, Config, ConfigError};
 use rust_hdl_core::prelude::*;
 
@@ -61,6 +61,13 @@ pub struct Core {
     pub point_waits: Vec<Signal<In, Bit>>,
     pub raises: Vec<Signal<In, Bit>>,
     pub raised: Vec<Signal<In, VertexId>>,
+    /// For deletions: as the ports of the engine of these names.
+    pub launch_owns: Vec<Signal<In, Bit>>,
+    pub deletes: Vec<Signal<In, Bit>>,
+    pub wanted: Vec<Signal<In, VertexId>>,
+    pub fetches: Vec<Signal<Out, Bit>>,
+    pub fetched: Vec<Signal<Out, Point>>,
+    tally: Vec<LivingTally>,
     command_port: CommandPort,
     answer_head: AnswerHead,
     answer_words: AnswerWords,
@@ -147,6 +154,13 @@ impl Core {
             point_waits: vec![Signal::default()],
             raises: vec![Signal::default()],
             raised: vec![Signal::default()],
+            responder: Responder::with_deletions(),
+            launch_owns: vec![Signal::default()],
+            deletes: vec![Signal::default()],
+            wanted: vec![Signal::default()],
+            fetches: vec![Signal::default()],
+            fetched: vec![Signal::default()],
+            tally: vec![LivingTally::default()],
             view: vec![StandingView::default()],
             ..Self::new(config)?
         })
@@ -261,6 +275,25 @@ impl Logic for Core {
             self.command_port.point_waits[i].next = self.point_waits[i].val();
             self.command_port.raises[i].next = self.raises[i].val();
             self.command_port.raised[i].next = self.raised[i].val();
+            self.engine.launch_owns[i].next = self.launch_owns[i].val();
+            self.engine.deletes[i].next = self.deletes[i].val();
+            self.engine.wanted[i].next = self.wanted[i].val();
+            self.fetches[i].next = self.engine.fetches[i].val();
+            self.fetched[i].next = self.engine.fetched[i].val();
+
+            // Free records and deleted vertices are left out of the counts.
+            self.responder.infinite[i].next = self.infinite.val();
+            self.tally[i].clock.next = self.clock.val();
+            self.tally[i].reset.next = self.reset.val();
+            self.tally[i].clears.next = self.command_port.clearing.val().clears;
+            self.tally[i].deletes.next = self.engine.erases[i].val();
+            self.tally[i].returns.next = self.engine.returns[i].val();
+            self.tally[i].records.next = self.engine.state.val().records;
+            self.tally[i].insertions.next = self.counters.insertions.val();
+            self.tally[i].opcode.next = self.command_port.request.val().opcode;
+            self.answer_head.records.next = self.tally[i].bound.val();
+            self.answer_words.records.next = self.tally[i].living.val();
+            self.answer_words.insertions.next = self.tally[i].vertices.val();
         }
     }
 }

@@ -1,5 +1,5 @@
-//! The core of a mesh that stands: as [`Core`], and it also does runs of `Locate`, `Interpolate`, `Nearest` and
-//! `InsertAs`.
+//! The core of a mesh that stands: as [`Core`], and it also does runs of `Locate`, `Interpolate`, `Nearest`,
+//! `InsertAs` and `Delete`.
 //!
 //! ```text
 //! commands -> RunGate --> Core ------- completed visits --+
@@ -15,7 +15,7 @@ use crate::engine::{Completion, Write};
 use crate::living::types::Standing;
 use crate::living::{Questions, RunGate};
 use crate::prelude::*;
-use incircle_protocol::{Config, ConfigError, CORE_RUNS, FEATURES_SHIFT, FEATURE_SHORT_IDS};
+use incircle_protocol::{Config, ConfigError, CORE_RUNS, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAX_DELETE_RING};
 
 #[derive(LogicBlock, Default)]
 pub struct LivingCore {
@@ -40,7 +40,7 @@ pub struct LivingCore {
 // The kernel holds the features as a literal, because rust-hdl allows no constants there. A changed protocol fails
 // here.
 const _: () = assert!(
-    (FEATURE_SHORT_IDS | CORE_RUNS) << FEATURES_SHIFT == 0x003e_0000,
+    (FEATURE_SHORT_IDS | CORE_RUNS) << FEATURES_SHIFT == 0x007e_0000,
     "the identity of this core follows the protocol"
 );
 
@@ -48,11 +48,15 @@ impl LivingCore {
     /// The core of a configuration of one engine.
     ///
     /// # Errors
-    /// If a parameter is out of range or there are several engines; the error says what is possible.
+    /// If a parameter is out of range, there are several engines, or the boundary list is too long for deletions; the
+    /// error says what is possible.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
         let config = config.check()?;
         if config.engines != 1 {
             return Err(ConfigError::EnginesForQuestions(config.engines));
+        }
+        if config.ring > MAX_DELETE_RING {
+            return Err(ConfigError::RingForDeletions(config.ring));
         }
         Ok(Self { core: Core::with_questions(config)?, questions: Questions::new(config), ..Self::default() })
     }
@@ -63,7 +67,7 @@ impl Logic for LivingCore {
     fn update(&mut self) {
         clock!(self, clock, core, questions);
         self.engine_shift.next = 8.into();
-        self.core.features[0].next = 0x003e_0000.into();
+        self.core.features[0].next = 0x007e_0000.into();
         self.core.reset.next = self.reset.val();
         self.questions.reset.next = self.reset.val();
         CommandSink::link(&mut self.command, &mut self.gate.command);
@@ -112,5 +116,10 @@ impl Logic for LivingCore {
         self.core.question_asks[0].next = self.questions.push.val().valid;
         self.core.question[0].next = self.questions.push.val().bundle;
         self.core.question_place[0].next = self.questions.position.val();
+        self.core.launch_owns[0].next = self.questions.owns.val();
+        self.core.deletes[0].next = self.questions.deletes.val();
+        self.core.wanted[0].next = self.questions.wanted.val();
+        self.questions.fetches.next = self.core.fetches[0].val();
+        self.questions.fetched.next = self.core.fetched[0].val();
     }
 }

@@ -17,6 +17,7 @@ mod commit_job;
 mod contexts;
 mod counters;
 mod defect;
+mod holes;
 mod living;
 mod memory;
 mod pipeline;
@@ -36,6 +37,7 @@ mod wires;
 
 use attempts::Tables;
 use counters::Latencies;
+use holes::Holes;
 use incircle_protocol::{Config, ConfigError};
 use living::LivingEngine;
 use memory::Memory;
@@ -67,8 +69,9 @@ pub struct ClockModel {
     defect: Option<Defect>,
     /// The living engine, in a core that has runs.
     living: Option<LivingEngine>,
-    /// The questions of a core that has no other runs.
+    /// The questions and changes of a core with runs, and the deletions of one that has them too.
     questions: Option<Questions>,
+    holes: Option<Holes>,
 }
 
 impl ClockModel {
@@ -101,6 +104,7 @@ impl ClockModel {
             defect: None,
             living: None,
             questions: None,
+            holes: None,
         })
     }
 
@@ -163,12 +167,12 @@ impl ClockModel {
     /// A memory is read and written in a way that is undefined in silicon, which would be a fault of the design.
     pub fn clock(&mut self, inputs: Inputs) {
         if inputs.reset {
-            let features = self.registers.features;
-            self.registers = Registers { features, ..Registers::after_reset(self.config, self.engine) };
+            let Registers { features, skips_free, .. } = self.registers;
+            self.registers = Registers { features, skips_free, ..Registers::after_reset(self.config, self.engine) };
             if let Some(living) = &mut self.living {
                 living.reset();
             }
-            self.questions = self.questions.as_ref().map(|_| Questions::new(self.config));
+            self.reset_runs();
             self.release.reset();
             self.pipeline.reset();
             self.ring.reset();
@@ -195,8 +199,12 @@ impl ClockModel {
         now.counted = was.counters;
         now.outcome = wires.outcome;
         now.noted = was.contexts;
-        now.push =
-            wires.outcome.and_then(|outcome| outcome.push).or(wires.solo_push).or(wires.start.map(|start| start.push));
+        now.push = wires
+            .outcome
+            .and_then(|outcome| outcome.push)
+            .or(wires.solo_push)
+            .or(wires.start.map(|start| start.push))
+            .or(wires.fill_push);
         if let Some(Launch { context, record, .. }) = wires.launch {
             now.push = Some(Bundle::look(context, record));
         }
@@ -204,7 +212,8 @@ impl ClockModel {
         self.pipeline.clock(&was, &wires, &mut self.memory, self.defect);
         now.starter.clock(&was, &wires, &self.tables, &mut self.memory, self.defect);
         self.ring.clock(wires.head_is_taken, wires.outcome.as_ref(), &self.memory);
-        now.commit.clock(&was, wires.head, &mut self.memory, wires.solo_inserts, wires.seeds);
+        let takes_new = wires.solo_inserts && self.memory.kept(was.solo.vertex()).is_none();
+        now.commit.clock(&was, wires.head, &mut self.memory, takes_new, wires.seeds);
         self.tables.clock(&wires, &mut self.memory);
         self.memory.clock(&was, &wires);
         self.release.clock(&wires, &mut self.memory, self.config, self.defect);
@@ -212,5 +221,6 @@ impl ClockModel {
         if let Some(write) = living_write {
             now.write = write;
         }
+        self.clock_holes(&was, &wires);
     }
 }

@@ -130,8 +130,8 @@ impl CommandModel {
         self
     }
 
-    /// The same model with those runs that a core with runs has, and no others: `Locate`, `Interpolate`, `Nearest` and
-    /// `InsertAs`. Its identity offers these.
+    /// The same model with those runs that a core with runs has, and no others: `Locate`, `Interpolate`, `Nearest`,
+    /// `InsertAs` and `Delete`. Its identity offers these.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         self.identity.features |= protocol::CORE_RUNS;

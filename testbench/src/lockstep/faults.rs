@@ -195,8 +195,8 @@ pub const QUESTION_FAULTS: &[Fault] = &[
         name: "gate_passes_interpolate_on",
         pieces: &[piece(
             "begins = @;",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == nearest_code) | (code == insert_code))",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == nearest_code) | (code == insert_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == nearest_code) | (code == insert_code) | (code == delete_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == nearest_code) | (code == insert_code) | (code == delete_code))",
         )],
     },
     Fault { name: "gate_passes_nearest_on", pieces: &[piece("nearest_code = @;", "32'ha", "32'h8")] },
@@ -220,13 +220,13 @@ pub const QUESTION_FAULTS: &[Fault] = &[
         name: "hint_follows_the_search",
         pieces: &[piece(
             "arrives = @;",
-            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)] & is_walk",
-            "completion[(64'h0)+:(1)] & verdict[(64'h1)+:(1)] & (is_walk | is_search)",
+            "completion[(64'h0)+:(1)] & located & is_walk",
+            "completion[(64'h0)+:(1)] & located & (is_walk | is_search)",
         )],
     },
     Fault {
         name: "search_ends_at_once",
-        pieces: &[piece("passes_by = @;", "is_search & (~verdict[(64'h1)+:(1)])", "is_search")],
+        pieces: &[piece("passes_by = @;", "is_search & (~located)", "is_search")],
     },
     Fault { name: "side_1_decides_alone", pieces: &[piece("if (@) begin", "on_0 | on_1", "on_1")] },
     Fault {
@@ -312,12 +312,12 @@ pub const QUESTION_FAULTS: &[Fault] = &[
 pub const CHANGE_FAULTS: &[Fault] = &[
     Fault { name: "high_vertex_is_not_refused", pieces: &[piece("is_high = @;", "vertex >= wide_capacity", "1'b0")] },
     Fault { name: "unknown_bits_are_trusted", pieces: &[piece("is_unknown = @;", "asked >= known$q", "1'b0")] },
-    Fault { name: "vertex_in_use_is_not_refused", pieces: &[piece("else if (@) begin", "|in_use$read_data", "1'b0")] },
+    Fault { name: "vertex_in_use_is_not_refused", pieces: &[piece("else if (@) begin", "is_used", "1'b0")] },
     Fault {
         name: "duplicate_stays_in_use",
         pieces: &[piece(
             "unmarks = @;",
-            "events[(64'h1)+:(1)] | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))",
+            "(events[(64'h1)+:(1)] & (~is_delete)) | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))",
             "1'b0",
         )],
     },
@@ -344,7 +344,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     },
     Fault {
         name: "number_of_the_item_handed_over_is_lost",
-        pieces: &[piece("handed$write_enable = @;", "events[(64'h0)+:(1)]", "1'b0")],
+        pieces: &[piece("handed$write_enable = @;", "hands_over", "1'b0")],
     },
     Fault { name: "item_begins_beside_a_visit", pieces: &[piece("events[(64'h3e)+:(1)] = @ &", "(~may_ask)", "1'b1")] },
     Fault {
@@ -372,4 +372,39 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "part_of_a_commit_goes_lost",
         pieces: &[piece("done$pop = @;", "done$valid & (~is_early)", "done$valid")],
     },
+    // M2, M4, M5, M6, M8: the rules of deletions.
+    Fault {
+        name: "root_of_a_star_is_trusted",
+        pieces: &[piece("\n        opens = @;", "kind$is_root & names_it", "kind$is_root")],
+    },
+    Fault {
+        name: "foreign_locks_of_stars_are_ignored",
+        pieces: &[
+            piece("refused = @;", "is_live & is_foreign & (~is_awaited)", "1'b0"),
+            piece("counts = @;", "is_live & (~is_foreign)", "is_live & (~is_awaited)"),
+        ],
+    },
+    Fault { name: "nobody_waits_at_a_star", pieces: &[piece("again = @;", "is_live & is_awaited", "1'b0")] },
+    Fault {
+        name: "locks_of_a_star_are_released_too_soon",
+        pieces: &[piece(
+            "erased[(64'h0)+:(1)] = @;",
+            "valid$q[32'h5] & job5$q[(64'h1a)+:(1)]",
+            "valid$q[32'h0] & job0$q[(64'h1a)+:(1)]",
+        )],
+    },
+    Fault { name: "free_records_are_not_known", pieces: &[piece("is_free = @;", "named$is_free", "1'b0")] },
+    Fault { name: "chains_do_not_meet", pieces: &[piece("meets = @;", "next_record == other_head", "1'b0")] },
+    Fault {
+        name: "best_apex_is_always_left",
+        pieces: &[piece("(verdict[(64'h0)+:(1)] | (@))", "~best_is_left", "1'b0")],
+    },
+    Fault {
+        name: "flat_holes_are_filled",
+        pieces: &[piece("restarts = @;", "hole[(64'h31)+:(1)] & has_left", "1'b0")],
+    },
+    Fault { name: "side_of_a_hole_is_not_mended", pieces: &[piece("mend$d = @;", "side$write", "110'b0")] },
+    Fault { name: "kept_ids_are_forgotten", pieces: &[piece("has_ids = @;", "owned$q", "1'b0")] },
+    Fault { name: "free_records_are_read_out", pieces: &[piece("lives = comes & @ &", "(~is_free)", "1'b1")] },
+    Fault { name: "test_pushes_beside_a_visit", pieces: &[piece("pushes = asks & @ &", "(~asks_or_may)", "1'b1")] },
 ];

@@ -79,6 +79,11 @@ pub struct Attempts {
     pub events: Signal<Out, VisitEvents>,
     /// In a core with changes: the vertex that the context of the completed visit inserts.
     pub vertex: Vec<Signal<Out, VertexId>>,
+    /// In such a core, for the visit that completes: its record is free (M8), or names the vertex of its context, which
+    /// counts in a run of deletions.
+    pub deletes: Vec<Signal<In, Bit>>,
+    pub is_free: Vec<Signal<In, Bit>>,
+    pub names: Vec<Signal<In, Bit>>,
     store: AttemptStore,
     points: AttemptPoints,
     meaning: VisitCase,
@@ -104,7 +109,13 @@ impl Attempts {
 
     /// The attempts of a core with changes.
     pub fn with_changes(config: Config) -> Self {
-        Self { vertex: vec![Signal::default()], ..Self::new(config) }
+        Self {
+            vertex: vec![Signal::default()],
+            deletes: vec![Signal::default()],
+            is_free: vec![Signal::default()],
+            names: vec![Signal::default()],
+            ..Self::new(config)
+        }
     }
 }
 
@@ -179,6 +190,14 @@ impl Logic for Attempts {
         self.releases.next = self.lists.releases.val();
         for i in 0..self.vertex.len() {
             self.vertex[i].next = self.points.vertex.val();
+            if self.is_free[i].val() {
+                self.meaning.verdict.next.conflict = false;
+            }
+            if self.deletes[i].val() {
+                self.meaning.verdict.next.conflict = self.names[i].val();
+                self.meaning.verdict.next.falls_onto_corner = false;
+                self.meaning.early.next.done = self.early.val().done & (!self.early_visit.val().rotates);
+            }
         }
 
         // A cavity with `n` boundary edges has `n - 2` records, as the polygon has no vertex inside.

@@ -53,6 +53,8 @@ pub struct Commit {
     pub committed: Signal<Out, Committed>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
+    /// In a core with deletions: the first entry of a ring is taken at this edge.
+    pub loads: Vec<Signal<Out, Bit>>,
     ring: DFF<CommitJob>,
     first: DFF<Entry>,
     current: DFF<Entry>,
@@ -74,6 +76,11 @@ pub struct Commit {
 impl Commit {
     pub fn new(config: Config) -> Self {
         Self { inner_list: InnerList::new(config), ..Self::default() }
+    }
+
+    /// The commit of a core with deletions.
+    pub fn with_deletions(config: Config) -> Self {
+        Self { loads: vec![Signal::default()], ..Self::new(config) }
     }
 }
 
@@ -146,6 +153,9 @@ impl Logic for Commit {
             self.first.d.next = self.entry.val();
             self.current.d.next = self.entry.val();
             self.current_id.d.next = self.entry.val().cavity_record;
+        }
+        for i in 0..self.loads.len() {
+            self.loads[i].next = self.steps.loads.val();
         }
         if self.reset.val() {
             self.request.d.next.valid = false;

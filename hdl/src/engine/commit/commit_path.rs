@@ -7,11 +7,12 @@
 
 use super::commit::Commit;
 use super::fresh_ids::FreshIds;
+use super::kept_ids::KeptIds;
 use super::release::Release;
 use super::ring_reader::RingReader;
 use crate::engine::types::{
-    CommitJob, CommitRequest, Committed, EntryWrite, InnerWrite, LockClear, LockWrite, ReleaseJob, ReleaseRequest,
-    Released, TriangleId, Write,
+    CommitJob, CommitRequest, Committed, EntryWrite, InnerWrite, KeptWrite, LockClear, LockWrite, ReleaseJob,
+    ReleaseRequest, Released, SoloStart, Start, TriangleId, Write,
 };
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -48,6 +49,20 @@ pub struct CommitPath {
     pub released: Signal<Out, Released>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
+    /// In a core with deletions: a context that starts, and whether ids are kept for its vertex; ids that a vertex
+    /// keeps; the last write of a deletion is requested; a solo insertion starts or is at work, and its two ids; ids
+    /// that were kept are in use again.
+    pub start: Vec<Signal<In, Start>>,
+    pub owns: Vec<Signal<In, Bit>>,
+    pub kept: Vec<Signal<In, KeptWrite>>,
+    pub erases: Vec<Signal<In, Bit>>,
+    pub erased: Vec<Signal<In, ReleaseRequest>>,
+    pub solo_start: Vec<Signal<In, SoloStart>>,
+    pub solo_is_at_work: Vec<Signal<In, Bit>>,
+    pub solo_first: Vec<Signal<Out, TriangleId>>,
+    pub solo_second: Vec<Signal<Out, TriangleId>>,
+    pub returns: Vec<Signal<Out, Bit>>,
+    kept_ids: Vec<KeptIds>,
     rings: RingReader,
     star: Commit,
     ids: FreshIds,
@@ -64,6 +79,26 @@ impl CommitPath {
             star: Commit::new(config),
             locks: Release::new(config),
             ..Self::default()
+        }
+    }
+
+    /// The commits of a core with deletions.
+    pub fn with_deletions(config: Config) -> Self {
+        Self {
+            star: Commit::with_deletions(config),
+            ids: FreshIds::with_deletions(),
+            start: vec![Signal::default()],
+            owns: vec![Signal::default()],
+            kept: vec![Signal::default()],
+            erases: vec![Signal::default()],
+            erased: vec![Signal::default()],
+            solo_start: vec![Signal::default()],
+            solo_is_at_work: vec![Signal::default()],
+            solo_first: vec![Signal::default()],
+            solo_second: vec![Signal::default()],
+            returns: vec![Signal::default()],
+            kept_ids: vec![KeptIds::new(config)],
+            ..Self::new(config)
         }
     }
 }
@@ -112,5 +147,35 @@ impl Logic for CommitPath {
         self.clear.next = self.locks.clear.val();
         self.released.next = self.locks.released.val();
         self.sweeps.next = self.locks.sweeps.val();
+
+        // A vertex that comes back takes the two ids that were kept for it, and no new ones.
+        for i in 0..self.kept_ids.len() {
+            self.kept_ids[i].clock.next = self.clock.val();
+            self.kept_ids[i].start.next = self.start[i].val();
+            self.kept_ids[i].owns.next = self.owns[i].val();
+            self.kept_ids[i].kept.next = self.kept[i].val();
+            self.kept_ids[i].commit.next = self.commit.val();
+            self.kept_ids[i].job.next = self.rings.head_job.val();
+            self.kept_ids[i].loads.next = self.star.loads[i].val();
+            self.kept_ids[i].takes.next = self.star.takes_fresh.val();
+            self.kept_ids[i].solo_start.next = self.solo_start[i].val();
+            self.kept_ids[i].solo_is_at_work.next = self.solo_is_at_work[i].val();
+            self.solo_first[i].next = self.ids.fresh.val();
+            self.solo_second[i].next = self.ids.fresh_after[i].val();
+            if self.kept_ids[i].solo_has_ids.val() {
+                self.solo_first[i].next = self.kept_ids[i].solo_first.val();
+                self.solo_second[i].next = self.kept_ids[i].solo_second.val();
+                self.ids.solo_inserts.next = false;
+            }
+            self.returns[i].next = (self.star.committed.val().valid & self.kept_ids[i].has_ids.val())
+                | (self.solo_inserts.val() & self.kept_ids[i].solo_has_ids.val());
+            if self.kept_ids[i].has_ids.val() {
+                self.star.fresh.next = self.kept_ids[i].id.val();
+                self.ids.takes.next = false;
+            }
+            if self.erases[i].val() {
+                self.locks.commit.next = self.erased[i].val();
+            }
+        }
     }
 }

@@ -39,6 +39,8 @@ pub struct FreshIds {
     pub fresh: Signal<Out, Bits<15>>,
     /// Records from this id on are not written yet.
     pub records: Signal<Out, Bits<15>>,
+    /// In a core with deletions: the id after the next new one.
+    pub fresh_after: Vec<Signal<Out, Bits<15>>>,
     taken: DFF<Bits<15>>,
     written: DFF<Bits<15>>,
     /// The value that `written` takes once the ring that has ended is in the memory.
@@ -54,6 +56,13 @@ pub struct FreshIds {
     seed_records: Signal<Local, Bits<15>>,
 }
 
+impl FreshIds {
+    /// The ids of a core with deletions.
+    pub fn with_deletions() -> Self {
+        Self { fresh_after: vec![Signal::default()], ..Self::default() }
+    }
+}
+
 impl Logic for FreshIds {
     #[hdl_gen]
     fn update(&mut self) {
@@ -64,6 +73,9 @@ impl Logic for FreshIds {
         self.seed_records.next = 4.into();
         self.fresh.next = self.taken.q.val();
         self.records.next = self.written.q.val();
+        for i in 0..self.fresh_after.len() {
+            self.fresh_after[i].next = self.taken.q.val() + self.one.val();
+        }
 
         // The sum is made before `takes` is known, which comes late.
         self.step.next = self.one.val();

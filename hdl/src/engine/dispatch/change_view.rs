@@ -6,7 +6,7 @@
 //! Latency: none, the block is combinational.
 
 use crate::engine::types::{
-    ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, Outcome, SoloProgress, Start, VertexId,
+    ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, FillEnd, Outcome, SoloProgress, Start, VertexId,
 };
 use rust_hdl_core::prelude::*;
 
@@ -23,8 +23,12 @@ pub struct ChangeView {
     pub contexts: Signal<In, ContextState>,
     /// A context that starts without an item, or with an item that it tries again.
     pub start: Signal<In, Start>,
+    /// A deletion whose last write is requested; and an item that ends with its hole.
+    pub erased: Signal<In, Committed>,
+    pub fill_end: Signal<In, FillEnd>,
     pub events: Signal<Out, ChangeEvents>,
     job: Signal<Local, CommitJob>,
+    erased_job: Signal<Local, CommitJob>,
 }
 
 impl Logic for ChangeView {
@@ -38,6 +42,16 @@ impl Logic for ChangeView {
         self.events.next.commit_ends = self.committed.val().valid;
         self.events.next.committed_context = self.job.val().context;
         self.events.next.committed_vertex = self.job.val().vertex;
+        self.erased_job.next = self.erased.val().job;
+        if self.erased.val().valid {
+            self.events.next.commit_ends = true;
+            self.events.next.committed_context = self.erased_job.val().context;
+            self.events.next.committed_vertex = self.erased_job.val().vertex;
+        }
+        self.events.next.fill_ends = self.fill_end.val().valid;
+        self.events.next.fill_is_flat = self.fill_end.val().valid & self.fill_end.val().is_flat;
+        self.events.next.fill_context = self.fill_end.val().context;
+        self.events.next.fill_vertex = self.fill_end.val().vertex;
         self.events.next.solo_ends = self.solo.val().ends;
         self.events.next.solo_inserts = self.solo.val().inserts;
         self.events.next.solo_context = self.solo.val().context;

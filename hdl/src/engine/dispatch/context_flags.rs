@@ -23,7 +23,10 @@
 //! all_rest        ___/^^\________/^^\____________________/^^
 //! ```
 
-use crate::engine::types::{CommitJob, Committed, ContextId, ContextSet, ContextState, Outcome, Released, Start};
+use super::fill_flags::FillFlags;
+use crate::engine::types::{
+    CommitJob, Committed, ContextId, ContextSet, ContextState, FillEnd, Outcome, Released, Start,
+};
 use crate::prelude::*;
 
 #[derive(LogicBlock, Default)]
@@ -46,6 +49,9 @@ pub struct ContextFlags {
     pub solo_context: Signal<In, ContextId>,
     /// The state of all contexts.
     pub contexts: Signal<Out, ContextState>,
+    /// In a core with changes: an item ends with its hole, so that its context falls asleep and its locks become due.
+    pub fill_end: Vec<Signal<In, FillEnd>>,
+    fill: Vec<FillFlags>,
     state: DFF<ContextState>,
     job: Signal<Local, CommitJob>,
     sleeping: Signal<Local, ContextSet>,
@@ -71,6 +77,13 @@ pub struct ContextFlags {
     asking: Signal<Local, ContextSet>,
     one: Signal<Local, ContextSet>,
     none: Signal<Local, ContextSet>,
+}
+
+impl ContextFlags {
+    /// The flags of a core with changes.
+    pub fn with_changes() -> Self {
+        Self { fill_end: vec![Signal::default()], fill: vec![FillFlags::default()], ..Self::default() }
+    }
 }
 
 impl Logic for ContextFlags {
@@ -134,6 +147,13 @@ impl Logic for ContextFlags {
         self.state.d.next.retrying =
             (self.state.q.val().retrying | self.tries.val()) & (!(self.starting.val() | self.solo_ended.val()));
         self.state.d.next.busy = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
+        for i in 0..self.fill.len() {
+            self.fill[i].ending.next = self.fill_end[i].val();
+            self.fill[i].asleep.next = (self.sleeping.val() | self.falls_asleep.val()) & (!self.starting.val());
+            self.fill[i].busy.next = (self.due.val() | self.becomes_due.val()) & (!self.freed.val());
+            self.state.d.next.asleep = self.fill[i].asleep_after.val();
+            self.state.d.next.busy = self.fill[i].busy_after.val();
+        }
         self.state.d.next.began = self.state.q.val().began | self.starting.val();
         self.state.d.next.hinted = self.state.q.val().hinted | self.had_commit.val();
         self.asking.next = (self.state.q.val().solo | self.overflowed.val()) & (!self.solo_ended.val());

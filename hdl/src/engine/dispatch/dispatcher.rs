@@ -9,7 +9,7 @@ use super::priorities::Priorities;
 use super::starter::Starter;
 use super::watchdog::Watchdog;
 use crate::engine::types::{
-    Clocks, Committed, ContextId, ContextSet, ContextState, Deal, Fetched, Outcome, Released, SeedProgress,
+    Clocks, Committed, ContextId, ContextSet, ContextState, Deal, Fetched, FillEnd, Outcome, Released, SeedProgress,
     SoloProgress, SoloStart, Start, VertexId,
 };
 use crate::prelude::*;
@@ -65,6 +65,10 @@ pub struct Dispatcher {
     pub own_start: Vec<Signal<Out, Start>>,
     pub has_changed: Vec<Signal<In, Bit>>,
     pub is_pending: Vec<Signal<In, Bit>>,
+    /// In such a core: an item ends with its hole; and the last write of a deletion is requested.
+    pub fill_ends: Vec<Signal<In, Bit>>,
+    pub fill_end: Vec<Signal<In, FillEnd>>,
+    pub erases: Vec<Signal<In, Bit>>,
     found: DFF<Outcome>,
     taken1: DFF<Bit>,
     taken2: DFF<Bit>,
@@ -86,6 +90,11 @@ impl Dispatcher {
     pub fn with_changes(config: Config) -> Self {
         Self {
             starter: Starter::with_changes(config),
+            flags: ContextFlags::with_changes(),
+            priorities: Priorities::with_changes(config),
+            fill_ends: vec![Signal::default()],
+            fill_end: vec![Signal::default()],
+            erases: vec![Signal::default()],
             finished_points: FinishedPoints::with_changes(),
             launches: vec![Signal::default()],
             launch: vec![Signal::default()],
@@ -186,6 +195,11 @@ impl Logic for Dispatcher {
             }
             self.finished_points.has_changed[i].next = self.has_changed[i].val();
             self.finished_points.is_pending[i].next = self.is_pending[i].val();
+            self.flags.fill_end[i].next = self.fill_end[i].val();
+            self.priorities.fill_end[i].next = self.fill_end[i].val();
+            if self.fill_ends[i].val() | self.erases[i].val() {
+                self.watchdog.finishes.next = true;
+            }
         }
     }
 }

@@ -25,8 +25,9 @@
 //! holds_priority    _______________/^^^^^\__/^^\__/^^\________
 //! ```
 
+use super::fill_priority::FillPriority;
 use super::next_point::{Passed, Planned};
-use crate::engine::types::{context_bits, ContextId, Outcome, Priority, CONTEXT_BITS, PRIORITY_BITS};
+use crate::engine::types::{context_bits, ContextId, FillEnd, Outcome, Priority, CONTEXT_BITS, PRIORITY_BITS};
 use crate::leaf::{LutMemory, Unpack};
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -46,6 +47,9 @@ pub struct Priorities {
     /// retry.
     pub passed: Signal<In, Passed>,
     pub may_retry: Signal<Out, Bit>,
+    /// In a core with changes: an item ends with its hole, and its context returns the priority if it holds it.
+    pub fill_end: Vec<Signal<In, FillEnd>>,
+    fill: Vec<FillPriority>,
     early_team: DFF<ContextId>,
     team: DFF<ContextId>,
     /// The team of each context, and the priority of each team, once for each place that reads it.
@@ -80,6 +84,11 @@ impl Priorities {
             ..Self::default()
         }
     }
+
+    /// The priorities of a core with changes.
+    pub fn with_changes(config: Config) -> Self {
+        Self { fill_end: vec![Signal::default()], fill: vec![FillPriority::default()], ..Self::new(config) }
+    }
 }
 
 impl Logic for Priorities {
@@ -109,6 +118,13 @@ impl Logic for Priorities {
         self.returns.next = self.outcome.val().returns_priority
             & self.held.value.val().is_held
             & (self.held.value.val().context == self.outcome.val().context);
+        for i in 0..self.fill.len() {
+            self.fill[i].ending.next = self.fill_end[i].val();
+            self.fill[i].held.next = self.held.value.val();
+            if self.fill[i].returns.val() {
+                self.returns.next = true;
+            }
+        }
         self.changed.next = self.held.value.val();
         if self.outcome.val().waits & (!self.waits.val().get_bit(3)) {
             self.changed.next.waits = self.waits.val() + self.one.val();

@@ -59,6 +59,8 @@ pub struct Solo {
     pub write: Signal<Out, Write>,
     /// The progress; `is_at_work` is high from the clock after `start` has been taken to the clock of `ends`.
     pub progress: Signal<Out, SoloProgress>,
+    /// In a core with deletions: the second new id.
+    pub own_third: Vec<Signal<In, TriangleId>>,
     awaits: DFF<Bit>,
     at_work_for: DFF<ContextId>,
     vertex: DFF<VertexId>,
@@ -72,6 +74,13 @@ pub struct Solo {
     star: SoloStar,
     verdict: Signal<Local, Verdict>,
     is_visiting: Signal<Local, Bit>,
+}
+
+impl Solo {
+    /// The block of a core with deletions.
+    pub fn with_deletions() -> Self {
+        Self { own_third: vec![Signal::default()], star: SoloStar::with_deletions(), ..Self::default() }
+    }
 }
 
 impl Logic for Solo {
@@ -97,6 +106,9 @@ impl Logic for Solo {
         self.star.root.next = self.root.q.val();
         self.star.completion.next = self.completion.val();
         self.write.next = self.star.write.val();
+        for i in 0..self.own_third.len() {
+            self.star.own_third[i].next = self.own_third[i].val();
+        }
 
         self.is_visiting.next = self.steps.phase.val().is_locate
             | self.steps.phase.val().is_mend

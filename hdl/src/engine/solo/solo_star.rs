@@ -44,6 +44,8 @@ pub struct SoloStar {
     pub is_round: Signal<Out, Bit>,
     /// A record or a link, from a register.
     pub write: Signal<Out, Write>,
+    /// In a core with deletions: the second new id.
+    pub own_third: Vec<Signal<In, TriangleId>>,
     done_phase: DFF<SoloPhase>,
     turn: DFF<SoloTurn>,
     ends_flip: DFF<Bit>,
@@ -72,6 +74,13 @@ pub struct SoloStar {
     one_more: Signal<Local, TriangleId>,
 }
 
+impl SoloStar {
+    /// The block of a core with deletions.
+    pub fn with_deletions() -> Self {
+        Self { own_third: vec![Signal::default()], ..Self::default() }
+    }
+}
+
 impl Logic for SoloStar {
     #[hdl_gen]
     fn update(&mut self) {
@@ -85,6 +94,9 @@ impl Logic for SoloStar {
         self.verdict.next = self.completion.val().verdict;
         self.is_last.d.next = self.triangle.q.val().b == self.root.val().v1;
         self.third.d.next = self.records.val() + self.one_more.val();
+        for i in 0..self.own_third.len() {
+            self.third.d.next = self.own_third[i].val();
+        }
         self.is_round.next = self.is_last.q.val();
         self.write.next = self.request.q.val();
 

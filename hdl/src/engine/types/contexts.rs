@@ -78,6 +78,12 @@ crate::packed! {
         pub may_launch: bool,
         /// No visit is in flight and no lock is held; the flag rises a clock after both hold.
         pub all_rest: bool,
+        /// The item of a deletion ends with its hole: the hole is full, or no triangle would be left; its context and
+        /// vertex.
+        pub fill_ends: bool,
+        pub fill_is_flat: bool,
+        pub fill_context: ContextId,
+        pub fill_vertex: VertexId,
     }
 
     /// A context starts the solo insertion of its point.

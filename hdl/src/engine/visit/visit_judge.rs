@@ -39,6 +39,8 @@ pub struct VisitJudge {
     /// In such a core as well: the rotated record in clock 0, and the search for the nearest vertex in clock 10.
     pub rotated: Vec<Signal<In, Turned>>,
     pub nearest: Vec<Signal<Out, NearVerdict>>,
+    /// And whether the three corners turn left.
+    pub turns_left: Vec<Signal<Out, Bit>>,
     predicates: VisitPredicates,
     verdict_logic: VerdictLogic,
     near_corner: Vec<NearCorner>,
@@ -59,6 +61,7 @@ impl VisitJudge {
             sides: vec![Signal::default()],
             rotated: vec![Signal::default()],
             nearest: vec![Signal::default()],
+            turns_left: vec![Signal::default()],
             predicates: VisitPredicates::with_sides(),
             near_corner: vec![NearCorner::default()],
             near_logic: vec![NearLogic::default()],
@@ -86,6 +89,7 @@ impl Logic for VisitJudge {
             self.near_logic[i].edges.next = self.predicates.signs.val().edges;
             self.near_logic[i].first_slot.next = self.turned.val().slot;
             self.nearest[i].next = self.near_logic[i].verdict.val();
+            self.turns_left[i].next = self.predicates.turns_left[i].val();
         }
     }
 }

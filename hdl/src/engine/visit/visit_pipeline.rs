@@ -27,11 +27,13 @@
 //! ```
 
 use super::issue::Issue;
+use super::test_corners::TestCorners;
 use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
     context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, NearVerdict, Position, Push, RecordRead,
-    TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS, VISIT_BITS,
+    TestVertices, TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS,
+    VISIT_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
@@ -61,6 +63,14 @@ pub struct VisitPipeline {
     /// the search for the nearest vertex: in a core that answers questions.
     pub sides: Vec<Signal<Out, Sides>>,
     pub nearest: Vec<Signal<Out, NearVerdict>>,
+    /// In such a core: a run of deletions is under way; the visit that reads its record, and two clocks later the
+    /// vertices of its test if it is one. The vertex memory is asked for a point of a test (`fetches`). Whether the
+    /// three corners of the visit that completes turn left.
+    pub deletes: Vec<Signal<In, Bit>>,
+    pub issued: Vec<Signal<Out, Visit>>,
+    pub test_vertices: Vec<Signal<In, TestVertices>>,
+    pub fetches: Vec<Signal<Out, Bit>>,
+    pub turns_left: Vec<Signal<Out, Bit>>,
     /// A record that the read-out wants, only while no visit is in flight; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
@@ -104,6 +114,8 @@ pub struct VisitPipeline {
     completes: DFF<Completion>,
     kept_sides: Vec<DFF<Sides>>,
     kept_near: Vec<DFF<NearVerdict>>,
+    kept_turn: Vec<DFF<Bit>>,
+    test: Vec<TestCorners>,
     shifted: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<15>>,
 }
@@ -145,6 +157,13 @@ impl VisitPipeline {
             nearest: vec![Signal::default()],
             kept_sides: vec![DFF::default()],
             kept_near: vec![DFF::default()],
+            kept_turn: vec![DFF::default()],
+            test: vec![TestCorners::default()],
+            deletes: vec![Signal::default()],
+            issued: vec![Signal::default()],
+            test_vertices: vec![Signal::default()],
+            fetches: vec![Signal::default()],
+            turns_left: vec![Signal::default()],
             ..Self::new(config)
         }
     }
@@ -233,6 +252,29 @@ impl Logic for VisitPipeline {
             self.kept_near[i].clock.next = self.clock.val();
             self.kept_near[i].d.next = self.judge.nearest[i].val();
             self.nearest[i].next = self.kept_near[i].q.val();
+            self.kept_turn[i].clock.next = self.clock.val();
+            self.kept_turn[i].d.next = self.judge.turns_left[i].val();
+            self.turns_left[i].next = self.kept_turn[i].q.val();
+
+            // A test of a hole has four vertices in the place of a record.
+            self.test[i].clock.next = self.clock.val();
+            self.test[i].deletes.next = self.deletes[i].val();
+            self.test[i].valid.next = self.valid.q.val().get_bit(1);
+            self.test[i].visit.next = self.reader.visit_at_record.val();
+            self.test[i].record.next = self.triangles.record.val();
+            self.test[i].vertices.next = self.test_vertices[i].val();
+            self.issued[i].next = self.issue.visit.val();
+            self.reader.record.next = self.test[i].seen.val();
+            self.vertices.id0.next = self.test[i].id0.val();
+            self.vertices.id1.next = self.test[i].id1.val();
+            self.vertices.id2.next = self.test[i].id2.val();
+            self.fetches[i].next = self.test[i].fetches.val();
+            if self.test[i].fetches.val() {
+                self.vertices.fetch_id.next = self.test[i].fetch_id.val();
+            }
+            if self.test[i].is_point.val() {
+                self.point.d.next = self.vertices.fetched.val();
+            }
         }
 
         self.shifted.next = self.valid.q.val() << self.one.val();

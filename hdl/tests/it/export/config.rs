@@ -34,6 +34,15 @@ fn a_core_with_questions_has_one_engine() {
 }
 
 #[test]
+fn a_core_with_deletions_has_a_short_boundary_list() {
+    let error = export::core_with_questions(Config { ring: 33, ..SMALL }, false).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "a core with deletions cannot have a boundary list of 33 edges: choose a number from 3 to 32"
+    );
+}
+
+#[test]
 fn extreme_parameters_export() {
     for (points, ring) in [(4, 3), (4, 64), (16384, 3), (16384, 64)] {
         for contexts in [1, 24] {

@@ -64,7 +64,8 @@ fn head(was: &Registers) -> (Status, u32) {
         }
         Some(Opcode::Read | Opcode::Triangles) => {
             let end = u64::from(command.first) + u64::from(command.count);
-            if end <= u64::from(was.commit.records) {
+            let free = if command.opcode == Opcode::Triangles as u8 { 2 * was.kept } else { 0 };
+            if end <= u64::from(was.commit.records - free) {
                 let ids = 3 * command.count;
                 let words = match command.short_ids {
                     _ if command.opcode == Opcode::Read as u8 => ids,
@@ -98,10 +99,10 @@ fn payload(was: &Registers, latencies: &Latencies, config: Config, index: usize)
         .to_words()[index],
         Some(Opcode::Insert) => InsertReport {
             arrived: was.command.arrived,
-            inserted: was.counted.insertions,
+            inserted: was.counted.insertions - was.deleted,
             duplicates: was.counted.duplicates,
             refused: was.command.refused,
-            records: was.commit.records,
+            records: was.commit.records - 2 * was.kept,
         }
         .to_words()[index],
         Some(Opcode::Latencies) => latencies.buckets[index],

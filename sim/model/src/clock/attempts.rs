@@ -7,6 +7,7 @@
 
 use super::commit_job::CommitJob;
 use super::defect::Defect;
+use super::holes::{Hole, Star};
 use super::memory::{Entry, Memory};
 use super::pipeline::{Bundle, Completion};
 use super::release::ReleaseJob;
@@ -67,6 +68,11 @@ pub(super) struct Outcome {
     pub duplicate: bool,
     /// Whether the visit was the look at the first three points.
     pub looks: bool,
+    /// In a run of deletions: the star after this visit; the hole that is tested on; and the hole whose next apex is
+    /// known, or that opens.
+    pub star: Option<Star>,
+    pub tests_on: Option<Hole>,
+    pub opens_hole: Option<Hole>,
 }
 
 /// The surroundings that a completion sees.
@@ -76,17 +82,27 @@ pub(super) struct Around<'a> {
     pub vertex: u32,
     pub since: u32,
     pub config: Config,
+    pub infinite: u32,
     pub defect: Option<Defect>,
 }
 
 impl Around<'_> {
     /// L6: whether a commit or release of the context's last point is due.
-    fn is_busy(&self, context: usize) -> bool {
+    pub(super) fn is_busy(&self, context: usize) -> bool {
         self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
     }
 
+    /// Number of places of the list, and the place of a visit of a star in it.
+    pub(super) fn places(&self) -> usize {
+        (self.config.ring as usize).next_power_of_two()
+    }
+
+    pub(super) fn place(&self, entry: usize) -> usize {
+        entry % self.places()
+    }
+
     /// L2: whether the context holds the priority.
-    fn holds_priority(&self, context: usize) -> bool {
+    pub(super) fn holds_priority(&self, context: usize) -> bool {
         self.was.noted.holders & 1 << context != 0
     }
 }
@@ -102,14 +118,14 @@ impl Outcome {
     }
 
     /// Asks for the same visit once more.
-    fn again(mut self, done: &Completion) -> Self {
+    pub(super) fn again(mut self, done: &Completion) -> Self {
         self.push = Some(Bundle::one(done.visit));
         self.revisits = true;
         self
     }
 
     /// Puts the context to sleep; later it tries again from this record.
-    fn abort(mut self, root: u32) -> Self {
+    pub(super) fn abort(mut self, root: u32) -> Self {
         self.sleeps = true;
         self.will_retry = true;
         self.root = Some(root);
@@ -137,7 +153,7 @@ impl Outcome {
             self.duplicate = true;
             self.returns_priority = true;
             self.sleeps = true;
-        } else if !ends {
+        } else if !ends || done.is_free {
             self.push = Some(Bundle::look(context, done.walk_next));
         } else if around.is_busy(context) {
             return self.again(done);
@@ -152,15 +168,8 @@ impl Outcome {
         let record = done.visit.record;
         let trusts = around.defect == Some(Defect::TrustsTheWalk);
         let (conflict, on_corner) = (done.conflict || trusts, done.falls_onto_corner && !trusts);
-        // L1, L2: another context holds the lock of the root.
         if done.foreign {
-            if around.holds_priority(self.context) {
-                self.waits = true;
-                return self.again(done);
-            }
-            self.aborts = true;
-            self.asks_for_priority = true;
-            return self.abort(record);
+            return self.foreign_root(done, around);
         }
         self.lock = Some((0, record));
         if conflict && !on_corner {
@@ -179,6 +188,17 @@ impl Outcome {
         }
         self.root_changed = true;
         self.abort(done.walk_next)
+    }
+
+    /// L1, L2: another context holds the lock of the root.
+    pub(super) fn foreign_root(mut self, done: &Completion, around: &Around) -> Self {
+        if around.holds_priority(self.context) {
+            self.waits = true;
+            return self.again(done);
+        }
+        self.aborts = true;
+        self.asks_for_priority = true;
+        self.abort(done.visit.record)
     }
 
     fn test(mut self, done: &Completion, around: &Around) -> Self {

@@ -41,6 +41,9 @@ pub(super) struct Commit {
     link: Write,
     closes: bool,
     pub write: Write,
+    /// The ids that are kept for the vertex of the ring, and how many of them are taken.
+    kept: Option<[u32; 2]>,
+    kept_used: usize,
     /// The next new id.
     pub fresh: u32,
     /// The numbers below which new ids count as written, two clocks and one clock from now.
@@ -64,12 +67,25 @@ impl Commit {
         (self.state == State::Close).then_some(self.job)
     }
 
+    /// Whether ids are kept for the vertex whose ring is written.
+    pub(super) fn has_kept(&self) -> bool {
+        self.kept.is_some()
+    }
+
     /// Whether the head of the ring reader is taken at this edge.
     pub(super) fn takes(&self, head: Option<Head>, memory: &Memory) -> bool {
         match self.state {
             State::Idle | State::Close => head.is_some(),
             State::Record => !self.current_is_last && self.step(head, memory).is_some(),
             State::Link => false,
+        }
+    }
+
+    /// The next new id: one that is kept for the vertex, or one that no record has had.
+    fn new_id(&self) -> u32 {
+        match self.kept {
+            Some(ids) => ids[self.kept_used],
+            None => self.fresh,
         }
     }
 
@@ -88,7 +104,7 @@ impl Commit {
         let ahead_id = match (is_inner, is_fresh) {
             (true, _) if self.inner_age < INNER_LATENCY => return None,
             (true, _) => memory.inner[self.job.context][self.inner_index as usize],
-            (_, true) => self.fresh,
+            (_, true) => self.new_id(),
             _ => ahead.cavity_record,
         };
         Some(Step { ahead, ahead_id, is_inner, is_fresh })
@@ -107,7 +123,7 @@ impl Commit {
         self.records = self.written[1].unwrap_or(self.records);
         self.written = [None, self.written[0]];
         match self.state {
-            State::Idle => self.load(head),
+            State::Idle => self.load(head, memory),
             State::Record => {
                 if let Some(step) = was.commit.step(head, memory) {
                     self.advance(&step, head);
@@ -123,7 +139,10 @@ impl Commit {
                 self.write = Write::record(self.current_id, v, n);
                 self.written[0] = Some(self.fresh);
                 self.state = State::Idle;
-                self.load(head);
+                if self.kept.is_some() {
+                    memory.take_kept(self.job.vertex);
+                }
+                self.load(head, memory);
             }
         }
         let others = 2 * u32::from(solo_ends) + 4 * u32::from(seeds);
@@ -134,7 +153,7 @@ impl Commit {
         }
     }
 
-    fn load(&mut self, head: Option<Head>) {
+    fn load(&mut self, head: Option<Head>, memory: &Memory) {
         if let Some(Head { job, entry, .. }) = head {
             self.job = job;
             self.first = entry;
@@ -144,6 +163,7 @@ impl Commit {
             self.opens = true;
             self.inner_index = 0;
             self.inner_age = 0;
+            (self.kept, self.kept_used) = (memory.kept(job.vertex), 0);
             self.state = State::Record;
         }
     }
@@ -155,7 +175,11 @@ impl Commit {
             self.inner_index += 1;
             self.inner_age = 0;
         }
-        self.fresh += u32::from(is_fresh);
+        if is_fresh && self.kept.is_some() {
+            self.kept_used += 1;
+        } else {
+            self.fresh += u32::from(is_fresh);
+        }
         let current = self.current;
         let mut links = false;
         if self.opens {

@@ -85,6 +85,11 @@ impl Contexts {
             self.retrying &= !(1 << context);
             self.began |= 1 << context;
         }
+        if let Some(end) = wires.fill_end {
+            self.asleep |= 1 << end.context;
+            self.busy |= 1 << end.context;
+            self.holders &= !(1 << end.context);
+        }
         if let Some(context) = wires.released {
             self.busy &= !(1 << context);
         }

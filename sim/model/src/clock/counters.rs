@@ -69,7 +69,7 @@ impl Counters {
         let kind = (done.visit.rotates, done.visit.locks);
         self.walk_visits += u32::from(kind == (false, false) && !outcome.looks);
         self.root_visits += u32::from(kind == (false, true));
-        self.tests += u32::from(kind == (true, true));
+        self.tests += u32::from(kind == (true, true) && !wires.deletes);
         self.revisits += u32::from(outcome.revisits);
         self.duplicates += u32::from(outcome.duplicate && !wires.changes_mesh);
         self.overflows += u32::from(outcome.overflows);

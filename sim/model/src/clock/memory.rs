@@ -38,7 +38,7 @@ impl Write {
 
     /// Takes the request of the block that makes one. While no block does, the data stay.
     pub(super) fn clock(&mut self, was: &Registers) {
-        let sources = [was.commit.write, was.solo.write, was.seeder.write];
+        let sources = [was.commit.write, was.filled, was.solo.write, was.seeder.write];
         match sources.into_iter().find(|write| write.valid) {
             Some(write) => *self = write,
             None => self.valid = false,
@@ -74,6 +74,8 @@ pub(super) struct Memory {
     pub point_id: Vec<u32>,
     pub position: Vec<Point>,
     pub since: Vec<u32>,
+    /// The ids of two free records for each vertex that has been deleted.
+    kept: Vec<Option<[u32; 2]>>,
 }
 
 impl Memory {
@@ -87,13 +89,39 @@ impl Memory {
             vertices: vec![Point::default(); config.points as usize],
             locks: vec![false; records],
             holders: vec![0; records],
-            entries: vec![vec![Entry::default(); ring]; contexts],
+            entries: vec![vec![Entry::default(); ring.next_power_of_two()]; contexts],
             inner: vec![vec![0; ring]; contexts],
             lock_log: vec![vec![0; 2 * ring]; contexts],
             point_id: vec![0; contexts],
             position: vec![Point::default(); contexts],
             since: vec![0; contexts],
+            kept: vec![None; config.points as usize],
         }
+    }
+
+    /// Keeps two ids of records for a vertex that is deleted.
+    pub(super) fn keep(&mut self, vertex: u32, ids: [u32; 2]) {
+        self.kept[vertex as usize] = Some(ids);
+    }
+
+    /// The ids that are kept for a vertex.
+    pub(super) fn kept(&self, vertex: u32) -> Option<[u32; 2]> {
+        self.kept.get(vertex as usize).copied().flatten()
+    }
+
+    /// Takes the ids that are kept for a vertex which is in the mesh again.
+    pub(super) fn take_kept(&mut self, vertex: u32) {
+        self.kept[vertex as usize] = None;
+    }
+
+    /// Forgets all ids that are kept.
+    pub(super) fn clear_kept(&mut self) {
+        self.kept.fill(None);
+    }
+
+    /// Whether all vertices of a record, in the words of an answer, are infinite.
+    pub(super) fn is_free(&self, words: [u32; 3]) -> bool {
+        words.iter().all(|word| word & 0x7fff == self.infinite)
     }
 
     /// Takes a lock for a context, and returns whether the context took it and whether another context holds it. A lock

@@ -4,6 +4,7 @@
 //! Hardware twin: the block `VisitPipeline`.
 
 use super::defect::Defect;
+use super::holes::replaces;
 use super::memory::Memory;
 use super::wires::{Registers, Wires};
 use crate::mesh::Record;
@@ -16,6 +17,9 @@ const STAGES: usize = 16;
 
 /// Number of clocks from the issue register to the record.
 const RECORD_STAGES: usize = 2;
+
+/// The mark, in `after`, of the visit of a record outside a star.
+pub(super) const OUTSIDE: usize = 32;
 
 /// One visit of a record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,6 +39,11 @@ pub(super) struct Visit {
 }
 
 impl Visit {
+    /// Whether this is the visit of a record outside a star, in a run of deletions.
+    pub(super) fn is_outside_star(&self) -> bool {
+        self.locks && self.rotates && (self.entry == 0 || self.after == OUTSIDE)
+    }
+
     /// Whether this is a root visit, which takes a lock and turns no record.
     pub(super) fn is_root(&self) -> bool {
         self.locks && !self.rotates
@@ -58,6 +67,16 @@ pub(super) struct Bundle {
 impl Bundle {
     pub(super) fn one(first: Visit) -> Self {
         Self { first, count: 1, ..Self::default() }
+    }
+
+    /// Two visits. The second one is for the entry after that of the first.
+    pub(super) fn pair(first: Visit, second_after: usize, second_record: u32) -> Self {
+        Self { first, count: 2, second_after, second_record, third_record: 0 }
+    }
+
+    /// Three visits, each but the first for the entry after that of the one before.
+    pub(super) fn three(first: Visit, second_after: usize, second_record: u32, third_record: u32) -> Self {
+        Self { first, count: 3, second_after, second_record, third_record }
     }
 
     /// A visit that only reads a record.
@@ -139,12 +158,22 @@ pub(super) struct Completion {
     pub walk_next: u32,
     /// The sign of `orient2d(r[0], r[1], p)`.
     pub turn: i32,
+    /// In a run of deletions: the slot of the context's vertex, if the record names it; and for a test of four vertices
+    /// of a ring, whether the last one replaces the best apex.
+    pub names: Option<usize>,
+    pub replaces: bool,
+    /// Whether the record is free, so that its links lead on.
+    pub is_free: bool,
 }
 
 impl Completion {
-    /// Whether the completion may ask for other visits, as all do but tests that find their edge final.
-    pub(super) fn may_ask(&self) -> bool {
-        !self.visit.rotates || self.conflict || self.foreign
+    /// Whether the completion may ask for other visits, as all do but tests that find their edge final and visits
+    /// outside a star.
+    pub(super) fn may_ask(&self, deletes: bool) -> bool {
+        match deletes {
+            true => !self.visit.is_outside_star() || self.foreign,
+            false => !self.visit.rotates || self.conflict || self.foreign,
+        }
     }
 }
 
@@ -177,6 +206,12 @@ impl Pipeline {
         });
         let (older, newer) = self.stages.split_at(self.head);
         newer.iter().chain(older).flatten().map(|done| done.visit).chain(self.issued).chain(waiting)
+    }
+
+    /// Whether the vertex memory is asked for the point of a test of four vertices in this clock.
+    pub(super) fn fetches(&self) -> bool {
+        let read = self.stages[(self.head + STAGES - RECORD_STAGES) % STAGES];
+        read.is_some_and(|done| done.visit.rotates && !done.visit.locks)
     }
 
     /// Whether a visit reads the memories in this clock.
@@ -248,5 +283,24 @@ fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, d
     let falls_onto_corner = ghost.is_none() && r.contains(&p);
     let turn = sides[2].signum() as i32;
     let again = is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written;
-    Completion { visit, record, slot, took, foreign, again, conflict, located, falls_onto_corner, walk_next, turn }
+    // M8: all three vertices of a free record are infinite.
+    let is_free = infinite == [true; 3];
+    let names = stored.v.iter().position(|&v| v == memory.point_id[visit.context]);
+    let replaces = wires.deletes && visit.rotates && !visit.locks && replaces(&visit, memory);
+    Completion {
+        visit,
+        record,
+        slot,
+        took,
+        foreign,
+        again,
+        conflict: conflict && !is_free,
+        located,
+        falls_onto_corner,
+        walk_next,
+        turn,
+        names,
+        replaces,
+        is_free,
+    }
 }

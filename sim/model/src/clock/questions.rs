@@ -54,11 +54,6 @@ impl Questions {
         }
     }
 
-    /// Whether the core answers runs of this kind.
-    pub(super) fn answers(kind: RunKind) -> bool {
-        matches!(kind, RunKind::Locate | RunKind::Interpolate | RunKind::Nearest | RunKind::InsertAs)
-    }
-
     /// Whether a run is under way.
     pub(super) fn is_active(&self) -> bool {
         self.port.is_active()
@@ -77,6 +72,11 @@ impl Questions {
     /// Whether a run of changes is under way.
     pub(super) fn changes_mesh(&self) -> bool {
         self.port.is_active() && self.port.is_change()
+    }
+
+    /// Whether a run of deletions is under way.
+    pub(super) fn deletes(&self) -> bool {
+        self.port.is_active() && self.port.kind() == RunKind::Delete
     }
 
     /// Whether an item of a change has begun since the last clear, so that contexts take no points by themselves.
@@ -99,7 +99,8 @@ impl Questions {
             return None;
         }
         let (context, item) = self.queues.first(self.offer())?;
-        Some(Launch { context, item, record: self.hints[context], stores: self.changes_mesh() })
+        let stores = self.changes_mesh() && !self.deletes();
+        Some(Launch { context, item, record: self.hints[context], stores })
     }
 
     /// Whether a run of questions is under way.
@@ -131,7 +132,7 @@ impl Questions {
         let (may_launch, ends) = match asks {
             true => (self.parts.has_room() && asked.is_empty(), found.map(|_| context)),
             false => {
-                let end = events.ends.or(events.solo_ends).filter(|_| self.changes.has_changed);
+                let end = events.ends.or(events.fill_ends).or(events.solo_ends).filter(|_| self.changes.has_changed);
                 (events.launch.is_some(), end.map(|end| end.context))
             }
         };
@@ -140,6 +141,7 @@ impl Questions {
         let around = Around {
             is_active: self.port.is_active(),
             is_change: self.port.is_change(),
+            deletes: self.deletes(),
             dealt: self.port.dealt(),
             vertex: self.port.vertex(),
             accepted: done.taken,
@@ -150,7 +152,7 @@ impl Questions {
         if let Some((context, record)) = events.root.filter(|_| self.changes.has_changed) {
             self.hints[context] = record;
         }
-        let change = self.changes.clock(&around, events, &self.items);
+        let change = self.changes.clock(&around, events, &self.items, memory);
         let walk = done.launched.and_then(|(context, item)| {
             self.items[context] = item;
             asks.then(|| Bundle::one(Visit::walk(context, self.hints[context])))

@@ -32,8 +32,11 @@ pub(super) enum Form {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct RecordReads {
     record_id: u32,
-    /// Number of records still to be read.
+    /// Number of records still to be read, or still to come if free ones are left out.
     left: u32,
+    /// Whether free records are left out, and the number of others that are passed over first.
+    skips: bool,
+    passes: u32,
     /// Whether the next record is the second of a pair. Two whole records fill three beats.
     is_second: bool,
     /// Whether no record may be asked for, because the pair before needs a clock for its third beat.
@@ -56,16 +59,26 @@ pub(super) struct Event {
     pub asks: bool,
     /// The record that comes, if one does.
     pub done: Option<[u32; 3]>,
+    /// Whether that record is free.
+    pub is_free: bool,
     /// Whether the offered beat is taken.
     pub takes: bool,
 }
 
 impl RecordReads {
+    /// Begins a payload of `count` records that are not free, from the one of number `first` on.
+    pub(super) fn start_living(&mut self, first: u32, count: u32) {
+        self.start(0, count);
+        self.skips = true;
+        self.passes = first;
+    }
+
     /// Begins a payload of `count` records from `first` on.
     pub(super) fn start(&mut self, first: u32, count: u32) {
         self.record_id = first;
         self.left = count;
         self.is_second = false;
+        (self.skips, self.passes) = (false, 0);
         self.packer = Packer { left: count, ..Packer::default() };
     }
 
@@ -81,14 +94,14 @@ impl RecordReads {
 
     pub(super) fn clock(&mut self, event: Event) {
         let was = *self;
-        let Event { form, asks, done, takes } = event;
+        let Event { form, asks, done, is_free, takes } = event;
         self.pauses = asks && was.is_second && form == Form::Whole;
         if asks {
             self.record_id += 1;
-            self.left -= 1;
+            self.left -= u32::from(!was.skips);
             self.is_second = !was.is_second;
         }
-        self.buffer = done;
+        self.buffer = done.filter(|_| !was.skips || self.counts(is_free));
         let mut pops = false;
         if takes || was.head.is_none() {
             self.head = was.queue.first().or(was.packer.filled);
@@ -97,6 +110,21 @@ impl RecordReads {
         self.has_room = was.queue.waiting <= ROOM;
         self.queue.clock(was.packer.filled, pops);
         self.packer.clock(was.buffer, form);
+    }
+}
+
+impl RecordReads {
+    /// Whether a record that comes belongs to the payload, from which free ones are left out.
+    fn counts(&mut self, is_free: bool) -> bool {
+        if is_free || self.left == 0 {
+            return false;
+        }
+        if self.passes > 0 {
+            self.passes -= 1;
+            return false;
+        }
+        self.left -= 1;
+        true
     }
 }
 

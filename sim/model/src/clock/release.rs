@@ -4,6 +4,7 @@
 //! Hardware twin: the block `Release`.
 
 use super::defect::Defect;
+use super::holes::release_of;
 use super::memory::Memory;
 use super::wires::Wires;
 use incircle_protocol::{triangle_capacity, Config};
@@ -80,7 +81,9 @@ impl Release {
             wires.committed
         };
         self.after_commit.extend(committed.map(|job| ReleaseJob { context: job.context, locks: job.locks }));
+        self.after_commit.extend(wires.erased.map(|job| ReleaseJob { context: job.context, locks: job.locks }));
         self.after_failure.extend(wires.outcome.and_then(|outcome| outcome.release));
+        self.after_failure.extend(wires.fill_end.as_ref().and_then(release_of));
     }
 
     fn fetch(&mut self, memory: &Memory) -> Option<Fetch> {

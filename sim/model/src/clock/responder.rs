@@ -106,6 +106,7 @@ impl Responder {
             form: form(was),
             asks: wires.read.is_some(),
             done: wires.record_read,
+            is_free: wires.read_is_free,
             takes: was.responder.state == State::Records && beat.is_some(),
         });
         if !was.responder.loads(wires.response_ready) {
@@ -146,7 +147,10 @@ impl Responder {
             State::Header => {
                 self.left = was.responder.answer.length();
                 self.index = 0;
-                self.records.start(was.command.first, was.command.count);
+                match was.skips_free && packs(was) {
+                    true => self.records.start_living(was.command.first, was.command.count),
+                    false => self.records.start(was.command.first, was.command.count),
+                }
                 let reads = was.command.opcode == Opcode::Read as u8 || packs(was);
                 self.state = if reads { State::Records } else { State::Choose };
             }

@@ -1,14 +1,17 @@
 //! Runs on the core: the living engine works while the insertion engine rests, and has the memories and both channels.
 
 use super::command_port::State as CommandState;
+use super::holes::Holes;
 use super::living::{LivingDefect, LivingEngine, RunCounts, Signals, Signature, Standing};
 use super::memory::Write;
 use super::pipeline::Completion;
 use super::ports::{Inputs, Outputs};
 use super::questions::{Events, ItemEnd, Launch, Questions, Signals as QuestionSignals};
-use super::wires::Wires;
+use super::wires::{Registers, Wires};
 use super::ClockModel;
-use incircle_protocol::{command_opcode, Opcode, RunKind, CORE_RUNS, FEATURE_RUNS};
+use incircle_protocol::{
+    command_opcode, ConfigError, Opcode, Outcome, RunKind, CORE_RUNS, FEATURE_RUNS, MAX_DELETE_RING,
+};
 
 impl ClockModel {
     /// The same core with the commands for a mesh that stands, the runs, which its identity then offers.
@@ -28,12 +31,50 @@ impl ClockModel {
     }
 
     /// The same core with the runs that the hardware has so far, which its identity then offers: `Locate`,
-    /// `Interpolate`, `Nearest` and `InsertAs`.
+    /// `Interpolate`, `Nearest`, `InsertAs` and `Delete`.
+    ///
+    /// # Panics
+    /// The boundary list is longer than [`MAX_DELETE_RING`]: the hardware refuses such a core.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
+        assert!(self.config.ring <= MAX_DELETE_RING, "{}", ConfigError::RingForDeletions(self.config.ring));
         self.registers.features |= CORE_RUNS;
+        self.registers.skips_free = true;
         self.questions = Some(Questions::new(self.config));
+        self.holes = Some(Holes::new(self.config.contexts as usize));
         self
+    }
+
+    /// Forgets all runs.
+    pub(super) fn reset_runs(&mut self) {
+        self.questions = self.questions.as_ref().map(|_| Questions::new(self.config));
+        self.holes = self.holes.as_ref().map(|_| Holes::new(self.config.contexts as usize));
+    }
+
+    /// Simulates one edge of the blocks of deletions, and counts the vertices that they take away.
+    pub(super) fn clock_holes(&mut self, was: &Registers, wires: &Wires) {
+        let now = &mut self.registers;
+        let comes_back = wires.committed.map(|job| job.vertex).filter(|_| was.commit.has_kept());
+        let solo = Some(was.solo.vertex()).filter(|&v| wires.solo_inserts && self.memory.kept(v).is_some());
+        if let Some(vertex) = solo {
+            self.memory.take_kept(vertex);
+        }
+        let back = u32::from(comes_back.is_some()) + u32::from(solo.is_some());
+        now.deleted += u32::from(wires.erased.is_some());
+        now.kept = now.kept + u32::from(wires.erased.is_some()) - back;
+        if let Some(holes) = &mut self.holes {
+            holes.clock(
+                wires.outcome.as_ref().filter(|_| wires.deletes),
+                wires.fill_push.is_some(),
+                wires.fill_end.is_some(),
+                &mut self.memory,
+            );
+            now.filled = holes.write();
+        }
+        if was.command.clears {
+            (now.deleted, now.kept) = (0, 0);
+            self.memory.clear_kept();
+        }
     }
 
     /// What the last run did. `None` for a core without runs.
@@ -72,7 +113,8 @@ impl ClockModel {
         let command = &self.registers.command;
         let is_active = questions.is_active();
         let word = Some(inputs.command_data).filter(|_| inputs.command_valid);
-        let kind = word.and_then(opcode_of).and_then(RunKind::of).filter(|&kind| Questions::answers(kind));
+        let answers = |kind: &RunKind| self.registers.features & kind.feature() != 0;
+        let kind = word.and_then(opcode_of).and_then(RunKind::of).filter(answers);
         let begins = kind.filter(|_| awaits_command && !is_active);
         let signals = QuestionSignals {
             begins,
@@ -116,25 +158,35 @@ impl ClockModel {
         let end = |context: usize, duplicate: Option<Completion>| ItemEnd {
             context,
             vertex: self.memory.point_id[context],
+            refused: None,
             duplicate: duplicate.map(|done| {
                 let place = self.memory.position[context];
                 let is_met = |&v: &u32| v != wires.infinite && self.memory.vertex(v) == place;
                 done.record.v.into_iter().find(is_met).unwrap_or(0)
             }),
         };
-        let ends = wires.outcome.filter(|outcome| outcome.commit.is_some() || outcome.duplicate);
+        let deletes = wires.deletes;
+        let ends = wires.outcome.filter(|outcome| outcome.commit.is_some() || outcome.duplicate).map(|outcome| {
+            let end = end(outcome.context, wires.done.filter(|_| outcome.duplicate && !deletes));
+            ItemEnd { refused: Some(Outcome::ManyNeighbors).filter(|_| deletes), ..end }
+        });
+        let fill_ends = wires
+            .fill_end
+            .map(|fill| ItemEnd { refused: Some(Outcome::Flat).filter(|_| fill.is_flat), ..end(fill.context, None) });
         let root = wires.done.filter(|done| wires.outcome.is_some() && done.visit.is_root());
         let solo_ends = wires.solo_ends.then(|| {
             let duplicate = if wires.solo_inserts { None } else { was.solo.last_visit() };
             end(was.solo.context(), duplicate)
         });
         Events {
-            ends: ends.map(|outcome| end(outcome.context, wires.done.filter(|_| outcome.duplicate))),
+            ends,
+            fill_ends,
             solo_ends,
             root: root.map(|done| (done.visit.context, done.visit.record)),
-            committed: wires.committed.map(|job| (job.context, job.vertex)),
+            committed: wires.committed.or(wires.erased).map(|job| (job.context, job.vertex)),
             taken: wires.start.and_then(|start| start.id),
             launch: wires.launch,
+            fetches: self.pipeline.fetches() && deletes,
             all_rest: was.contexts.rest,
             arrival: was.command.came.then(|| (was.command.came_id, self.memory.vertex(was.command.came_id))),
             arrived: was.command.arrived,

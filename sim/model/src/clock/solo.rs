@@ -96,6 +96,11 @@ impl Solo {
         self.done
     }
 
+    /// The vertex that is inserted.
+    pub(super) fn vertex(&self) -> u32 {
+        self.vertex
+    }
+
     /// The context whose point is inserted.
     pub(super) fn context(&self) -> usize {
         self.context
@@ -125,10 +130,10 @@ impl Solo {
                     self.state = State::Locate;
                 }
             }
-            (State::Split, _) => self.split(was),
+            (State::Split, _) => self.split(was, memory),
             (State::Flip, _) => self.flip(was),
             (State::Locate, Some(done)) => self.locate(wires, &done),
-            (State::Mend, Some(done)) => self.mend(was, &done),
+            (State::Mend, Some(done)) => self.mend(was, &done, memory),
             (State::Fetch, Some(done)) => self.take_star(&done),
             (State::Test, Some(done)) => self.take_test(was, wires, &done),
             (State::Locate | State::Mend | State::Fetch | State::Test, None) => {}
@@ -148,10 +153,16 @@ impl Solo {
         }
     }
 
-    fn split(&mut self, was: &Registers) {
+    /// The ids of the two records that come to the mesh.
+    fn new_ids(&self, was: &Registers, memory: &Memory) -> [u32; 2] {
+        let fresh = was.commit.records;
+        memory.kept(self.vertex).unwrap_or([fresh, fresh + 1])
+    }
+
+    fn split(&mut self, was: &Registers, memory: &Memory) {
         let (id, root) = (was.solo.root_id, was.solo.root);
-        let (p, second) = (was.solo.vertex, was.commit.records);
-        let third = second + 1;
+        let p = was.solo.vertex;
+        let [second, third] = self.new_ids(was, memory);
         let [v0, v1, v2] = root.v;
         self.write = match was.solo.step {
             0 => Write::record(id, [p, v1, v2], [root.n[0], second, third]),
@@ -165,9 +176,10 @@ impl Solo {
         }
     }
 
-    fn mend(&mut self, was: &Registers, done: &Completion) {
+    fn mend(&mut self, was: &Registers, done: &Completion, memory: &Memory) {
         self.awaits = false;
-        self.write = Write::link(done.visit.record, done.slot, was.commit.records + was.solo.step);
+        let id = self.new_ids(was, memory)[was.solo.step as usize];
+        self.write = Write::link(done.visit.record, done.slot, id);
         self.step = 1;
         if was.solo.step == 1 {
             self.id = was.solo.root_id;

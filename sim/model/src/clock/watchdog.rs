@@ -19,7 +19,8 @@ pub(super) struct Watchdog {
 impl Watchdog {
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, config: Config) {
         let duplicate = was.outcome.is_some_and(|outcome| outcome.duplicate);
-        let finishes = wires.committed.is_some() || wires.solo_ends || wires.seeds || duplicate;
+        let fills = wires.erased.is_some() || wires.fill_end.is_some();
+        let finishes = fills || wires.committed.is_some() || wires.solo_ends || wires.seeds || duplicate;
         self.rests = finishes || wires.is_quiet;
         self.clocks = if was.watchdog.rests { 0 } else { self.clocks + 1 };
         self.is_over = was.watchdog.clocks == patience(config.points);

@@ -11,6 +11,7 @@ use super::commit::Commit;
 use super::commit_job::CommitJob;
 use super::contexts::Contexts;
 use super::counters::Counters;
+use super::holes::{FillEnd, Holes};
 use super::memory::Write;
 use super::pipeline::{Bundle, Completion};
 use super::ports::Inputs;
@@ -47,6 +48,13 @@ pub(super) struct Registers {
     /// The bundle that enters the queue in this clock.
     pub push: Option<Bundle>,
     pub write: Write,
+    /// The write that the filling of a hole requests.
+    pub filled: Write,
+    /// Number of vertices that have been deleted since the last clear, and of those whose ids are kept.
+    pub deleted: u32,
+    pub kept: u32,
+    /// Whether read-outs of triangles leave out free records; a constant.
+    pub skips_free: bool,
     /// The features of the identity; a constant.
     pub features: u32,
 }
@@ -76,6 +84,8 @@ pub(super) struct Wires {
     pub outcome: Option<Outcome>,
     /// The record that a read-out asked for three clocks ago, as answer words.
     pub record_read: Option<[u32; 3]>,
+    /// Whether that record is free.
+    pub read_is_free: bool,
     /// The record that a read-out asks for.
     pub read: Option<u32>,
     /// Whether the responder loads its last word.
@@ -113,6 +123,12 @@ pub(super) struct Wires {
     /// Whether the solo insertion ends, and whether it ends with its point in the mesh and not as a duplicate.
     pub solo_ends: bool,
     pub solo_inserts: bool,
+    /// Whether a run of deletions is under way; the test that the filling of a hole asks for; the item that ends with a
+    /// hole that is full or flat; and the deletion whose last record is written.
+    pub deletes: bool,
+    pub fill_push: Option<Bundle>,
+    pub fill_end: Option<FillEnd>,
+    pub erased: Option<CommitJob>,
 }
 
 impl ClockModel {
@@ -132,25 +148,31 @@ impl ClockModel {
         // every visit but a test that finds its edge final counts as asking. The pointer knows even less, and
         // waits at every completion.
         let lacks_port = wanted.is_some_and(|start| start.id.is_some() && was.command.came);
-        let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask());
+        let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask(self.deletes()));
         let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         let head = self.ring.head;
         let rests = was.contexts.rest;
+        let record_read = self.pipeline.record_read().map(|id| self.memory.record_words(id));
         let solo_inserts = was.solo.inserts();
         let start = wanted.filter(|_| !lacks_port && !lacks_queue);
+        let launch = self.launch(lacks_queue || start.is_some());
+        let holes = self.holes.as_ref();
+        let is_free = !lacks_queue && start.is_none() && launch.is_none();
+        let releases = outcome.is_some_and(|outcome| outcome.release.is_some());
         Wires {
             word,
             response_ready: inputs.response_ready,
             infinite: self.memory.infinite,
             done,
             outcome,
-            record_read: self.pipeline.record_read().map(|id| self.memory.record_words(id)),
+            record_read,
+            read_is_free: record_read.is_some_and(|words| self.memory.is_free(words)),
             read: was.responder.read_request(),
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.finished_points.is_done(was) && rests,
             new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
             start,
-            launch: self.launch(lacks_queue || start.is_some()),
+            launch,
             has_changed: questions.is_some_and(Questions::has_changed),
             changes_mesh: questions.is_some_and(Questions::changes_mesh),
             is_pending: questions.is_some_and(|questions| questions.is_pending(was.command.came)),
@@ -165,7 +187,16 @@ impl ClockModel {
             solo_starts: was.starter.solo().filter(|_| rests && !was.solo.is_at_work()),
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
+            deletes: self.deletes(),
+            fill_push: holes.and_then(Holes::push_request).filter(|_| is_free),
+            fill_end: holes.and_then(Holes::end_request).filter(|_| !releases),
+            erased: holes.and_then(Holes::erased),
         }
+    }
+
+    /// Whether a run of deletions is under way.
+    fn deletes(&self) -> bool {
+        self.questions.as_ref().is_some_and(Questions::deletes)
     }
 
     /// The consequences of a completing visit for its context.
@@ -177,9 +208,13 @@ impl ClockModel {
             vertex: self.memory.point_id[context],
             since: self.memory.since[context],
             config: self.config,
+            infinite: self.memory.infinite,
             defect: self.defect,
         };
-        Outcome::of(done, &around)
+        match self.holes.as_ref().filter(|_| self.deletes()) {
+            Some(holes) => Outcome::of_deletion(done, &around, &holes.stars[context], &holes.holes[context]),
+            None => Outcome::of(done, &around),
+        }
     }
 }
 

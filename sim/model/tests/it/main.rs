@@ -10,6 +10,8 @@ mod clock {
     mod batch;
     mod by_command;
     mod defects;
+    mod delete_cycles;
+    mod deletions;
     mod hang;
     mod orders;
     mod questions;

@@ -1,5 +1,5 @@
 //! Runs cores that change a mesh that stands beside their model, and compares every root port at every clock: random
-//! scripts of `InsertAs`, `Insert`, `Locate` and `Interpolate` on small grids, crossed with idle clocks and
+//! scripts of `InsertAs`, `Delete`, `Insert` and questions on small grids, crossed with idle clocks and
 //! back-pressure. Parts and meshes are compared with the model by commands, which knows no clock.
 //!
 //! A host puts no vertex and no place twice into one run. Where a script does, the order of the items is the core's
@@ -34,7 +34,8 @@ struct Rig {
 
 impl Rig {
     fn new(pair: Lockstep, config: Config, seed: u64) -> Self {
-        let commands = CommandModel::new(CORE_COORD_BITS, config.points, config.ring)
+        // The number of neighbours depends on the order of deletions, so the model by commands has a long list.
+        let commands = CommandModel::new(CORE_COORD_BITS, config.points, 64)
             .unwrap_or_else(|error| panic!("{error}"))
             .with_contexts(config.contexts)
             .with_runs();
@@ -120,6 +121,55 @@ impl Rig {
         Ok(())
     }
 
+    /// A `Delete` of these vertices. The model by commands deletes those of which the parts say so, and then refuses all
+    /// others for the same reason.
+    fn delete(&mut self, vertices: &[u32]) -> Result<(), Box<Mismatch>> {
+        let run = |vertices: &[u32]| [&[command_word(Opcode::Delete), vertices.len() as u32], vertices].concat();
+        let length = 2 + if self.stands { 2 * vertices.len() } else { 0 };
+        let answer = self.answer(&run(vertices), length)?;
+        if !self.stands {
+            assert_eq!(answer, self.expected(&run(vertices)));
+            return Ok(());
+        }
+        let parts = sorted(&answer[2..], 2);
+        assert_eq!(parts.len(), vertices.len(), "each item has a part");
+        let outcome = |part: &[u32]| part[0] >> 24;
+        let is = |part: &[u32], wanted: Outcome| outcome(part) == wanted as u32;
+        let items = || vertices.iter().copied().zip(&parts);
+        items().for_each(|(vertex, part)| assert_eq!(part[1], vertex));
+        parts.iter().for_each(|part| self.seen[outcome(part) as usize] += 1);
+        let done: Vec<u32> = items().filter(|(_, part)| is(part, Outcome::Done)).map(|(vertex, _)| vertex).collect();
+        let expected = self.expected(&run(&done));
+        assert!(expected[2..].chunks(2).all(|part| is(part, Outcome::Done)), "vertices that were deleted can be");
+        for (vertex, part) in items().filter(|(_, part)| !is(part, Outcome::Done) && !is(part, Outcome::ManyNeighbors))
+        {
+            let is_alone = vertices.iter().filter(|&&other| other == vertex).count() == 1;
+            let expected = self.expected(&run(&[vertex]));
+            assert!(!is_alone || outcome(&expected[2..]) == outcome(part), "{vertex}: {part:x?}, not {expected:x?}");
+        }
+        Ok(())
+    }
+
+    /// Up to this many vertices, most of them once.
+    fn vertices(&mut self, most: u64) -> Vec<u32> {
+        let points = u64::from(self.config.points);
+        let known = points.min(2 + self.places.len() as u64);
+        let is_clean = !self.random.once_in(4);
+        let mut seen = BTreeSet::new();
+        let mut vertices = Vec::new();
+        for _ in 0..self.random.below(most + 1) {
+            let vertex = match self.random.below(16) {
+                0 => self.random.bits(32),
+                1 => points + self.random.below(2),
+                _ => self.random.below(known),
+            } as u32;
+            if !is_clean || seen.insert(vertex) {
+                vertices.push(vertex);
+            }
+        }
+        vertices
+    }
+
     fn ask(&mut self, kind: RunKind, places: &[u32]) -> Result<(), Box<Mismatch>> {
         let words = [&[command_word(kind.opcode()), places.len() as u32], places].concat();
         let expected = self.expected(&words);
@@ -146,11 +196,20 @@ impl Rig {
         let (vertices, records) = (report[3], report[6]);
         assert_eq!(records, 2 * vertices - 2, "live records");
         let read = [command_word(Opcode::Read), 0, records];
-        let expected = triangles(&self.expected(&read)[2..]);
         let answer = self.answer(&read, 2 + 3 * records as usize)?;
         assert!(answer[2..].iter().all(|word| word >> 31 == 0), "no lock is set");
-        assert_eq!(triangles(&answer[2..]), expected);
-        Ok(())
+        let all = [command_word(Opcode::Triangles), 0, records];
+        let expected = triangles(&self.expected(&all)[2..], records);
+        let answer = self.answer(&all, 2 + (3 * records as usize).div_ceil(2))?;
+        let own = triangles(&answer[2..], records);
+        assert_eq!((own.len() as u32, &own), (records, &expected));
+        // A part of them, and one record too many.
+        let first = self.random.below(u64::from(records) + 1) as u32;
+        let count = self.random.below(u64::from(records - first) + 1) as u32;
+        let words = (3 * count as usize).div_ceil(2);
+        let part = self.answer(&[command_word(Opcode::Triangles), first, count], 2 + words)?;
+        assert_eq!(ids(&part[2..], count), ids(&answer[2..], records)[3 * first as usize..][..3 * count as usize]);
+        self.same(&[command_word(Opcode::Triangles), 0, records + 1]).map(drop)
     }
 
     /// Up to this many items with vertices that are new for the most part, and places on a grid of this side.
@@ -182,7 +241,7 @@ impl Rig {
         let side = [3, 4, 6, 11, 1 << 16][self.random.below(5) as usize];
         self.clear()?;
         for _ in 0..2 + self.random.below(5) {
-            match self.random.below(6) {
+            match self.random.below(8) {
                 0 | 1 => {
                     let points = self.random.below(points + 1);
                     let points: BTreeSet<u32> = (0..points).map(|_| place(&mut self.random, side)).collect();
@@ -196,6 +255,10 @@ impl Rig {
                     let count = self.random.below(items + 1);
                     let places: Vec<u32> = (0..count).map(|_| place(&mut self.random, side)).collect();
                     self.ask(kind, &places)?;
+                }
+                3 | 4 => {
+                    let vertices = self.vertices(items.min(self.places.len() as u64 + 2));
+                    self.delete(&vertices)?;
                 }
                 _ => {
                     let items = self.items(items, side);
@@ -223,15 +286,20 @@ fn sorted(parts: &[u32], words: usize) -> Vec<Vec<u32>> {
     parts
 }
 
-/// The triangles of narrow records, each from its lowest vertex on.
-fn triangles(words: &[u32]) -> BTreeSet<[u32; 3]> {
+/// The vertices of records without their links.
+fn ids(words: &[u32], records: u32) -> Vec<u32> {
+    words.iter().flat_map(|word| [word & 0xffff, word >> 16]).take(3 * records as usize).collect()
+}
+
+/// The triangles of these records, each from its lowest vertex on.
+fn triangles(words: &[u32], records: u32) -> BTreeSet<[u32; 3]> {
     let turned = |record: &[u32]| {
-        let mut v = [0, 1, 2].map(|k| record[k] & 0x7fff);
+        let mut v = [0, 1, 2].map(|k| record[k]);
         let lowest = (0..3).min_by_key(|&k| v[k]).unwrap_or(0);
         v.rotate_left(lowest);
         v
     };
-    words.chunks(3).map(turned).collect()
+    ids(words, records).chunks(3).map(turned).collect()
 }
 
 fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, items: u64) {
@@ -246,7 +314,7 @@ fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, items
         seen.iter_mut().zip(std::mem::take(&mut rig.seen)).for_each(|(sum, count)| *sum += count);
     }
     println!("{name}: outcomes {seen:?}");
-    for outcome in [Outcome::Done, Outcome::Duplicate, Outcome::InUse, Outcome::Full] {
+    for outcome in [Outcome::Done, Outcome::Duplicate, Outcome::Missing, Outcome::InUse, Outcome::Full, Outcome::Flat] {
         assert!(seen[outcome as usize] > scripts / 20, "{outcome:?} comes up: {seen:?}");
     }
     assert!(seen[15] > scripts / 50, "runs with a vertex or a place twice: {seen:?}");

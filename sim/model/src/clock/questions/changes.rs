@@ -5,6 +5,8 @@
 
 use super::part_queue::Part;
 use super::signals::{Events, Item, ItemEnd};
+use crate::clock::memory::Memory;
+use crate::predicate::Point;
 use incircle_protocol::{Located, Outcome};
 use std::collections::VecDeque;
 
@@ -30,8 +32,9 @@ pub(super) struct Changes {
     known: u32,
     /// Number of vertices that are still to be marked after a clear.
     seeding: u32,
-    /// The bit that was read last.
+    /// The bit that was read last, and the point of the vertex on offer if that is deleted.
     read: bool,
+    place: Option<Point>,
     /// The point of an `Insert` that waits, and the context of the next one.
     late: Option<(usize, Item)>,
     turn: usize,
@@ -47,6 +50,7 @@ pub(super) struct Around {
     /// A run is under way, and it changes the mesh.
     pub is_active: bool,
     pub is_change: bool,
+    pub deletes: bool,
     /// The item on offer, its vertex, and whether the queues take the item that is offered to them.
     pub dealt: Option<(usize, Item)>,
     pub vertex: u32,
@@ -78,6 +82,7 @@ impl Changes {
             known: 0,
             seeding: 2,
             read: false,
+            place: None,
             late: None,
             turn: 0,
             handed: vec![0; contexts],
@@ -89,7 +94,11 @@ impl Changes {
     pub(super) fn offered(&self, run: Option<Option<(usize, Item)>>, is_change: bool) -> Option<(usize, Item)> {
         match run {
             None => self.late,
-            Some(dealt) => dealt.filter(|_| !is_change || self.state == State::Offer),
+            Some(dealt) if !is_change => dealt,
+            Some(dealt) => dealt.filter(|_| self.state == State::Offer).map(|(context, item)| {
+                let place = self.place.unwrap_or(item.place);
+                (context, Item { place, ..item })
+            }),
         }
     }
 
@@ -99,11 +108,13 @@ impl Changes {
     }
 
     /// Simulates one edge; `numbers` has the number of the item of each context.
-    pub(super) fn clock(&mut self, around: &Around, events: &Events, numbers: &[Item]) -> Done {
+    pub(super) fn clock(&mut self, around: &Around, events: &Events, numbers: &[Item], memory: &Memory) -> Done {
         let mut done = Done { raised: events.committed.map(|(_, vertex)| vertex), ..Done::default() };
         let number = |end: ItemEnd| numbers[end.context].number;
-        let early = events.ends.filter(|end| end.duplicate.is_some()).or(events.solo_ends);
-        if let Some(end) = events.ends.filter(|end| end.duplicate.is_none()) {
+        let stays = |end: &ItemEnd| end.duplicate.is_some() || end.refused.is_some();
+        let ends = events.ends.or(events.fill_ends);
+        let early = ends.filter(stays).or(events.solo_ends);
+        if let Some(end) = ends.filter(|end| !stays(end)) {
             self.handed[end.context] = number(end);
         }
         if let Some(end) = events.solo_ends.filter(|end| end.duplicate.is_none()) {
@@ -118,6 +129,7 @@ impl Changes {
         done.came = match early {
             Some(end) => {
                 let outcome = if end.duplicate.is_some() { Outcome::Duplicate } else { Outcome::Done };
+                let outcome = end.refused.unwrap_or(outcome);
                 Some(part(number(end), outcome, end.duplicate.unwrap_or(end.vertex)))
             }
             None => self.done.pop_front().map(|(number, vertex)| part(number, Outcome::Done, vertex)),
@@ -130,7 +142,7 @@ impl Changes {
         }
         done.came = done.came.filter(|_| runs);
         done.taken = around.is_active && around.accepted || done.is_noted;
-        self.check(around, events, early, &done);
+        self.check(around, events, early, &done, memory);
         self.take_late(around, events);
         self.has_changed |= events.launch.is_some();
         if around.clears {
@@ -142,9 +154,12 @@ impl Changes {
     }
 
     /// Looks whether the vertex of the item on offer can be inserted.
-    fn check(&mut self, around: &Around, events: &Events, early: Option<ItemEnd>, done: &Done) {
+    fn check(&mut self, around: &Around, events: &Events, early: Option<ItemEnd>, done: &Done, memory: &Memory) {
         let unmarked = early.filter(|end| end.duplicate.is_some()).map(|end| end.vertex);
-        let marked = events.launch.map(|launch| launch.item.vertex).or(events.taken);
+        // A vertex that cannot be deleted is in use again.
+        let remarked = early.filter(|end| end.refused.is_some()).map(|end| end.vertex);
+        let launched = events.launch.filter(|_| !around.deletes).map(|launch| launch.item.vertex);
+        let marked = remarked.or(launched).or(events.taken);
         let is_taken = unmarked.is_some() || marked.is_some();
         let (was_known, was_seeding, vertex) = (self.known, self.seeding, around.vertex);
         if let Some(vertex) = unmarked {
@@ -161,12 +176,14 @@ impl Changes {
         self.state = match self.state {
             State::Idle if around.dealt.is_some() && around.is_change && was_seeding == 0 => State::Look,
             State::Idle => State::Idle,
-            State::Look if is_taken => State::Look,
+            State::Look if is_taken || events.fetches => State::Look,
             State::Look => {
+                self.place = around.deletes.then(|| memory.vertex(vertex & 0x7fff));
                 self.read = self.in_use.get(vertex as usize).copied().unwrap_or(false);
                 State::Fetch
             }
             State::Fetch => State::Judge,
+            State::Judge if around.deletes => self.judge_deletion(vertex, was_known, is_taken),
             State::Judge if vertex as usize >= self.in_use.len() => State::Refuse(Outcome::Full),
             State::Judge if vertex >= was_known => State::Raise,
             State::Judge if self.read => State::Refuse(Outcome::InUse),
@@ -190,6 +207,18 @@ impl Changes {
             State::Refuse(_) if done.is_noted => State::Idle,
             State::Refuse(outcome) => State::Refuse(outcome),
         };
+    }
+
+    /// Decides whether a vertex can be deleted. From then on it is not in use.
+    fn judge_deletion(&mut self, vertex: u32, known: u32, is_taken: bool) -> State {
+        match () {
+            () if vertex >= known || !self.read => State::Refuse(Outcome::Missing),
+            () if is_taken => State::Judge,
+            () => {
+                self.in_use[vertex as usize] = false;
+                State::Offer
+            }
+        }
     }
 
     /// Keeps a point of an `Insert` until its context takes it.

@@ -74,7 +74,7 @@ impl RunPort {
 
     /// Whether the run under way changes the mesh, or the last one did.
     pub(super) fn is_change(&self) -> bool {
-        self.kind == RunKind::InsertAs
+        self.kind.is_change()
     }
 
     /// The vertex of the item on offer, which can be any word.
@@ -120,7 +120,7 @@ impl RunPort {
             State::Items => {
                 if let Some(word) = word {
                     match self.first.take() {
-                        None if self.is_change() => self.first = Some(word),
+                        None if self.kind.has_vertex() && self.kind.has_point() => self.first = Some(word),
                         first => self.hold(first, word, signals.contexts),
                     }
                 }
@@ -131,7 +131,7 @@ impl RunPort {
             State::Refused => {
                 if let Some(word) = word {
                     match self.first.take() {
-                        None if self.is_change() => self.first = Some(word),
+                        None if self.kind.has_vertex() && self.kind.has_point() => self.first = Some(word),
                         _ => self.left -= 1,
                     }
                 }
@@ -160,7 +160,8 @@ impl RunPort {
 
     fn hold(&mut self, first: Option<u32>, word: u32, contexts: usize) {
         let place = Point { x: word & 0xffff, y: word >> 16 };
-        self.vertex = first.unwrap_or(0);
+        // The item of a `Delete` has no point: its word is the vertex.
+        self.vertex = first.unwrap_or(word);
         self.held = Some((self.context, Item { number: self.number, place, vertex: self.vertex }));
         self.number = part_item(self.number + 1);
         self.context = (self.context + 1) % contexts;

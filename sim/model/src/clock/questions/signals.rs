@@ -1,7 +1,7 @@
 //! The items of a run, and the signals that the rest of the core gives to the blocks of runs.
 
 use crate::predicate::Point;
-use incircle_protocol::RunKind;
+use incircle_protocol::{Outcome, RunKind};
 
 /// An item of a run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,6 +29,8 @@ pub(in super::super) struct ItemEnd {
     pub vertex: u32,
     /// The vertex that has the point of the item.
     pub duplicate: Option<u32>,
+    /// Why the vertex of the item was not deleted.
+    pub refused: Option<Outcome>,
 }
 
 /// The events of the insertion engine at an edge.
@@ -36,6 +38,8 @@ pub(in super::super) struct ItemEnd {
 pub(in super::super) struct Events {
     /// The completed visit ends the item of its context: its attempt hands its ring over, or a vertex has the point.
     pub ends: Option<ItemEnd>,
+    /// The hole of a deleted vertex is full, or the vertex cannot be deleted.
+    pub fill_ends: Option<ItemEnd>,
     /// A solo insertion has ended.
     pub solo_ends: Option<ItemEnd>,
     /// A root visit has completed, for this context and record.
@@ -44,6 +48,8 @@ pub(in super::super) struct Events {
     pub committed: Option<(usize, u32)>,
     /// The vertex that a context takes without an item.
     pub taken: Option<u32>,
+    /// The vertex memory is asked for a point of a hole.
+    pub fetches: bool,
     /// The item that begins.
     pub launch: Option<Launch>,
     /// Whether no visit is in flight and no lock is held.

@@ -77,6 +77,10 @@ fn ghost_slot(record: &Record, memory: &Memory) -> Option<usize> {
 
 /// The next record of a walk, or `None` if this record holds the place.
 fn walk(record: &Record, p: Point, memory: &Memory) -> Option<u32> {
+    // M8: a free record leads on.
+    if record.v == [memory.infinite; 3] {
+        return Some(record.n[0]);
+    }
     let sides = sides(record, p, memory);
     if let Some(slot) = ghost_slot(record, memory) {
         return Some(record.n[slot]).filter(|_| sides[slot] <= 0);

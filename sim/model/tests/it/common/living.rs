@@ -32,12 +32,20 @@ impl From<Hang> for Fault {
 
 impl Pair {
     pub fn new(config: Config, defect: Option<LivingDefect>) -> Self {
-        let mut bench = Bench::new(config);
         let core = ClockModel::new(config).expect("a core that can be built");
-        bench.core = match defect {
-            Some(rule) => core.with_runs_without(rule),
-            None => core.with_runs(),
-        };
+        Self::of(
+            config,
+            match defect {
+                Some(rule) => core.with_runs_without(rule),
+                None => core.with_runs(),
+            },
+        )
+    }
+
+    /// This core and the model by commands.
+    pub fn of(config: Config, core: ClockModel) -> Self {
+        let mut bench = Bench::new(config);
+        bench.core = core;
         let model = CommandModel::new(16, config.points, config.ring).expect("a model that can be built");
         let layout = Layout::of(16, config.points);
         Self {

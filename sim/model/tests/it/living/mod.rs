@@ -1,4 +1,4 @@
 //! The living engine, clock by clock.
 
 mod defects;
-mod scripts;
+pub mod scripts;

@@ -21,6 +21,8 @@ pub struct Script {
     /// Places of the points.
     places: Vec<u32>,
     stalls: Stalls,
+    /// The kinds of runs.
+    pub kinds: &'static [RunKind],
 }
 
 impl Script {
@@ -40,7 +42,7 @@ impl Script {
         // Sometimes the memory is full.
         let count = (places.len() as u32).next_power_of_two();
         let points = if random.below(3) == 0 { (count / 2).max(4) } else { count };
-        Self { random, contexts, points, ring, places, stalls }
+        Self { random, contexts, points, ring, places, stalls, kinds: &RunKind::ALL }
     }
 
     /// A script in 16 contexts.
@@ -53,8 +55,19 @@ impl Script {
     /// # Errors
     /// What went wrong first.
     pub fn run(&mut self, defect: Option<LivingDefect>) -> Result<Pair, Fault> {
-        let config = Config { name: "test", points: self.points, ring: self.ring, contexts: self.contexts, engines: 1 };
-        let mut pair = Pair::new(config, defect);
+        let pair = Pair::new(self.config(), defect);
+        self.run_on(pair)
+    }
+
+    pub fn config(&self) -> Config {
+        Config { name: "test", points: self.points, ring: self.ring, contexts: self.contexts, engines: 1 }
+    }
+
+    /// Runs the script on this core.
+    ///
+    /// # Errors
+    /// What went wrong first.
+    pub fn run_on(&mut self, mut pair: Pair) -> Result<Pair, Fault> {
         let count = (4 + self.random.below(self.places.len() as u32 - 4)).min(self.points - 1) as usize;
         let mut first: Vec<u32> = self.places[..count].to_vec();
         let is_flat = |p: &[u32]| {
@@ -74,7 +87,7 @@ impl Script {
     }
 
     fn step(&mut self, pair: &mut Pair) -> Result<(), Fault> {
-        let kind = RunKind::ALL[self.random.below(6) as usize];
+        let kind = self.kinds[self.random.below(self.kinds.len() as u32) as usize];
         let items = match kind {
             RunKind::InsertAs => self.insertions(pair),
             RunKind::Delete => self.deletions(pair),

@@ -10,14 +10,30 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     ChangeEnds,
-    [reset, runs, events, context_id, number, corner, refuses, is_beyond, refused_number, refused_vertex, has_room],
-    [is_noted, ends, came, raises, raised, unmarks, unmarked],
+    [
+        reset,
+        runs,
+        events,
+        context_id,
+        number,
+        corner,
+        is_delete,
+        refuses,
+        is_beyond,
+        refused_number,
+        refused_vertex,
+        has_room
+    ],
+    [is_noted, ends, came, raises, raised, unmarks, unmarked, remarks, remarked],
     clock
 );
 
 const DUPLICATE: u64 = 5;
+const MISSING: u64 = 6;
 const IN_USE: u64 = 7;
 const FULL: u64 = 8;
+const MANY_NEIGHBORS: u64 = 10;
+const FLAT: u64 = 11;
 
 /// An event of the insertion engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +41,13 @@ enum Event {
     Nothing,
     HandsOver,
     Duplicate,
-    Solo { inserts: bool },
+    Solo {
+        inserts: bool,
+    },
+    /// The hole of a deletion is full, or no triangle would be left.
+    Fill {
+        is_flat: bool,
+    },
 }
 
 #[test]
@@ -36,16 +58,19 @@ fn change_ends_gives_each_item_its_part() {
     let mut handed = [None::<[u64; 2]>; 2];
     let mut due: VecDeque<[u64; 2]> = VecDeque::new();
     let mut last = [0; 3];
-    let mut seen = [0; 4];
+    let mut seen = [0; 7];
     for clock in 0..20_000 {
         let (reset, runs) = (clock < 4, !random.once_in(10) || !due.is_empty());
         let context = random.below(2);
         let [number, vertex, corner] = [random.bits(24), random.bits(15), random.bits(15)];
+        let is_delete = random.once_in(2);
         let event = match random.below(8) {
             _ if reset => Event::Nothing,
             0 | 1 if handed[context as usize].is_none() => Event::HandsOver,
             2 => Event::Duplicate,
-            3 => Event::Solo { inserts: random.once_in(2) },
+            3 if !is_delete => Event::Solo { inserts: random.once_in(2) },
+            3 => Event::Fill { is_flat: true },
+            4 if is_delete && handed[context as usize].is_none() => Event::Fill { is_flat: false },
             _ => Event::Nothing,
         };
         let committed = (0..2).find(|&context| handed[context].is_some() && random.once_in(4) && due.len() < 2);
@@ -65,6 +90,11 @@ fn change_ends_gives_each_item_its_part() {
         block.set("events_solo_ends", is_solo);
         block.set("events_solo_inserts", event == Event::Solo { inserts: true });
         block.set("events_solo_context", context);
+        block.set("is_delete", is_delete);
+        block.set("events_fill_ends", matches!(event, Event::Fill { .. }));
+        block.set("events_fill_is_flat", event == Event::Fill { is_flat: true });
+        block.set("events_fill_context", context);
+        block.set("events_fill_vertex", vertex ^ 1);
         for (port, value) in [("context_id", context), ("number", number), ("corner", corner)] {
             block.set(port, value);
         }
@@ -80,15 +110,24 @@ fn change_ends_gives_each_item_its_part() {
             due.push_back(done);
         }
         let ends = event != Event::Nothing;
-        let is_early = ends && event != Event::HandsOver;
+        let hands_over = matches!(event, Event::HandsOver | Event::Fill { is_flat: false });
+        let is_early = ends && !hands_over;
         let part = match event {
+            Event::Duplicate if is_delete => Some((number, MANY_NEIGHBORS, vertex)),
             Event::Duplicate => Some((number, DUPLICATE, corner)),
+            Event::Fill { is_flat: true } => Some((number, FLAT, vertex ^ 1)),
             Event::Solo { inserts: true } => Some((last[0], 0, last[1])),
             Event::Solo { inserts: false } => Some((last[0], DUPLICATE, last[2])),
-            Event::Nothing | Event::HandsOver => due.front().map(|&[number, vertex]| (number, 0, vertex)),
+            Event::Nothing | Event::HandsOver | Event::Fill { is_flat: false } => {
+                due.front().map(|&[number, vertex]| (number, 0, vertex))
+            }
         };
         let is_noted = part.is_none() && refuses && has_room;
-        let refusal = (refused_number, if is_beyond { FULL } else { IN_USE }, refused_vertex);
+        let refusal = match (is_delete, is_beyond) {
+            (true, _) => (refused_number, MISSING, refused_vertex),
+            (false, true) => (refused_number, FULL, refused_vertex),
+            (false, false) => (refused_number, IN_USE, refused_vertex),
+        };
         let part = part.or_else(|| is_noted.then_some(refusal));
         if !reset {
             block.expect("is_noted", is_noted);
@@ -97,24 +136,32 @@ fn change_ends_gives_each_item_its_part() {
             if let Some((number, outcome, vertex)) = part {
                 block.expect("came_part_number", number);
                 block.expect("came_part_finding_outcome", outcome);
-                let port = if outcome == FULL { "came_part_finding_w0" } else { "came_part_finding_v0" };
-                let bits = if outcome == FULL { u64::MAX } else { 0x7fff };
+                let is_word = [MISSING, FULL].contains(&outcome);
+                let port = if is_word { "came_part_finding_w0" } else { "came_part_finding_v0" };
+                let bits = if is_word { u64::MAX } else { 0x7fff };
                 block.expect(port, vertex & bits);
-                seen[[0, 5, 7, 8].iter().position(|&known| known == outcome).unwrap_or(0)] += 1;
+                seen[[0, 5, 6, 7, 8, 10, 11].iter().position(|&known| known == outcome).unwrap_or(0)] += 1;
             }
             if ends {
                 block.expect("ends_context", context);
             }
             let unmarked = match event {
-                Event::Duplicate => Some(vertex),
+                Event::Duplicate if !is_delete => Some(vertex),
                 Event::Solo { inserts: false } => Some(last[1]),
+                _ => None,
+            };
+            let remarked = match event {
+                Event::Duplicate if is_delete => Some(vertex),
+                Event::Fill { is_flat: true } => Some(vertex ^ 1),
                 _ => None,
             };
             let raised = match event {
                 Event::Solo { inserts: true } => Some(last[1]),
                 _ => committed.map(|_| done[1]),
             };
-            for (port, id, wanted) in [("unmarks", "unmarked", unmarked), ("raises", "raised", raised)] {
+            for (port, id, wanted) in
+                [("unmarks", "unmarked", unmarked), ("remarks", "remarked", remarked), ("raises", "raised", raised)]
+            {
                 block.expect(port, wanted.is_some());
                 if let Some(wanted) = wanted {
                     block.expect(id, wanted);
@@ -128,7 +175,7 @@ fn change_ends_gives_each_item_its_part() {
         if let Some(context) = committed {
             handed[context] = None;
         }
-        if event == Event::HandsOver {
+        if hands_over {
             handed[context as usize] = Some([number, vertex]);
         }
         last = [number, vertex, corner];

@@ -31,7 +31,9 @@ named_ports!(
         capacity,
         arrived,
         arrival,
-        events
+        events,
+        fetches,
+        fetched
     ],
     [
         command.ready,

@@ -1,5 +1,6 @@
 //! Runs `VertexCheck` in Rust and in Verilog beside a set of vertices in use: each item must have the outcome that the
-//! set says, whatever comes into use and falls out of use meanwhile.
+//! set says, whatever comes into use and falls out of use meanwhile. A vertex that is deleted keeps ids from then on, and
+//! its item has its point.
 
 use std::collections::BTreeSet;
 
@@ -10,8 +11,11 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     VertexCheck,
-    [reset, clears, capacity, arrived, dealt, is_change, vertex, accepted, is_noted, marks, marked, unmarks, unmarked],
-    [taken, offered, refuses, is_beyond],
+    [
+        reset, clears, capacity, arrived, dealt, is_change, is_delete, vertex, accepted, is_noted, marks, marked,
+        disowns, unmarks, unmarked, fetches, fetched
+    ],
+    [taken, offered, refuses, is_beyond, wanted],
     clock
 );
 
@@ -22,7 +26,16 @@ struct Rig {
     block: Stepper<VertexCheck>,
     random: SplitMix64,
     in_use: BTreeSet<u64>,
+    /// The vertices for which ids are kept.
+    owners: BTreeSet<u64>,
     arrived: u64,
+    /// The vertices whose points come in the next two clocks.
+    fetched: [u64; 2],
+}
+
+/// The point of a vertex.
+fn point(vertex: u64) -> u64 {
+    vertex * 0x0101_0101 & 0xffff_ffff
 }
 
 impl Rig {
@@ -36,7 +49,12 @@ impl Rig {
         self.block.set("unmarks", unmarks);
         self.block.set("marked", vertex);
         self.block.set("unmarked", vertex);
+        let fetches = self.random.once_in(3);
+        self.block.set("fetches", fetches);
+        self.block.set("fetched", point(self.fetched[1]));
         self.block.settle();
+        let wanted = if fetches { self.random.bits(15) } else { self.block.get("wanted") as u64 };
+        self.fetched = [wanted, self.fetched[0]];
         self.block.edge();
         if marks {
             self.in_use.insert(vertex);
@@ -54,6 +72,7 @@ impl Rig {
         self.edge(None);
         self.block.set("clears", false);
         self.in_use = BTreeSet::from([0, 1]);
+        self.owners.clear();
         for _ in 0..2 {
             self.edge(None);
         }
@@ -62,19 +81,22 @@ impl Rig {
         self.block.set("arrived", count);
         for vertex in 2..count {
             self.block.set("marks", true);
+            self.block.set("disowns", true);
             self.block.set("marked", vertex);
             self.block.set("unmarks", false);
             self.block.settle();
             self.block.edge();
             self.in_use.insert(vertex);
         }
+        self.block.set("disowns", false);
         self.arrived = count;
         self.edge(None);
     }
 
     /// Brings an item through the block: `None` if it goes to its context, else whether its vertex is beyond the
     /// capacity.
-    fn bring(&mut self, vertex: u64, is_change: bool) -> Option<bool> {
+    fn bring(&mut self, vertex: u64, is_change: bool, is_delete: bool) -> Option<bool> {
+        self.block.set("is_delete", is_delete);
         self.block.set("dealt_valid", true);
         self.block.set("is_change", is_change);
         self.block.set("vertex", vertex);
@@ -89,6 +111,15 @@ impl Rig {
             self.block.set("accepted", takes && is_offered);
             self.block.set("is_noted", takes && is_refused);
             self.block.settle();
+            if is_change && is_offered {
+                self.block.expect("offered_item_vertex", vertex);
+                if !is_delete {
+                    self.block.expect("offered_item_owns", self.owners.contains(&vertex));
+                }
+            }
+            if is_delete && is_offered {
+                self.block.expect("offered_item_place", point(vertex));
+            }
             self.block.expect("taken", takes && (is_offered || is_refused));
             let is_beyond = self.block.is("is_beyond");
             let asked = Some(vertex).filter(|_| is_change);
@@ -105,11 +136,12 @@ impl Rig {
 }
 
 #[test]
-fn vertex_check_refuses_what_cannot_be_inserted() {
+fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
     let block = Stepper::new("living_vertex_check", VertexCheck::new(TINY), 1);
     let random = SplitMix64::new(82);
-    let mut rig = Rig { block, random, in_use: BTreeSet::new(), arrived: 0 };
-    for port in ["clears", "dealt_valid", "is_change", "accepted", "is_noted"] {
+    let (in_use, owners) = (BTreeSet::new(), BTreeSet::new());
+    let mut rig = Rig { block, random, in_use, owners, arrived: 0, fetched: [0; 2] };
+    for port in ["clears", "dealt_valid", "is_change", "is_delete", "accepted", "is_noted", "disowns"] {
         rig.block.set(port, false);
     }
     rig.block.set("capacity", POINTS);
@@ -119,11 +151,12 @@ fn vertex_check_refuses_what_cannot_be_inserted() {
         rig.block.set("reset", clock < 4);
         rig.edge(None);
     }
-    let mut seen = [0; 3];
+    let mut seen = [0; 5];
     for _ in 0..200 {
         rig.clear();
         for _ in 0..rig.random.below(12) {
             let is_change = !rig.random.once_in(6);
+            let is_delete = is_change && rig.random.once_in(3);
             let vertex = match rig.random.below(6) {
                 0 => rig.random.bits(32) | POINTS,
                 1 => POINTS,
@@ -131,16 +164,26 @@ fn vertex_check_refuses_what_cannot_be_inserted() {
             };
             let wanted = match () {
                 () if !is_change => None,
+                () if is_delete && rig.in_use.contains(&vertex) => None,
+                () if is_delete => Some(vertex >= POINTS),
                 () if vertex >= POINTS => Some(true),
                 () if rig.in_use.contains(&vertex) => Some(false),
                 () => None,
             };
-            assert_eq!(rig.bring(vertex, is_change), wanted, "vertex {vertex}, in use {:?}", rig.in_use);
-            if is_change && wanted.is_none() {
+            assert_eq!(rig.bring(vertex, is_change, is_delete), wanted, "vertex {vertex}, in use {:?}", rig.in_use);
+            if is_delete && wanted.is_none() {
+                rig.in_use.remove(&vertex);
+                rig.owners.insert(vertex);
+            } else if is_change && wanted.is_none() {
                 rig.in_use.insert(vertex);
             }
-            seen[wanted.map_or(0, |is_beyond| 1 + usize::from(is_beyond))] += 1;
+            let kind = match wanted {
+                _ if is_delete => 3 + usize::from(wanted.is_some()),
+                None => 0,
+                Some(is_beyond) => 1 + usize::from(is_beyond),
+            };
+            seen[kind] += 1;
         }
     }
-    assert!(seen.iter().all(|&count| count > 100), "offered, in use, beyond: {seen:?}");
+    assert!(seen.iter().all(|&count| count > 100), "offered, in use, beyond, deleted, missing: {seen:?}");
 }

@@ -1,0 +1,267 @@
+//! The deletions of a run: from the root of a star to the mark of the last free record.
+//!
+//! ```text
+//! completed visits -> StarCase, NamedVertex -> StarStep -> StarVisits -> visits, entries, locks
+//!                                                |  ^         ^
+//!                                                v  StarStore | tests
+//!                                             HoleStep -------+
+//!                                                |
+//!                         HoleRing <- entries    v
+//!                             |              HoleFill -> tests, ends of items
+//!                             v                  |
+//!                         HoleWriter <-----------+
+//!                             |
+//!                             +-> records, links, marks, ids that a vertex keeps
+//! ```
+//! 1. In a run of deletions all visits that turn their record are this block's. Walks and roots are those of the
+//!    attempts, which take a record that names the vertex for one that conflicts.
+//! 2. An attempt that fails releases its locks: it has met a foreign lock (M4), or its ring is too long for the list,
+//!    and then its item ends (`outcome.duplicate`).
+//! 3. The item of a hole that is full ends when its last triangle is on its way; the locks are due at the last write
+//!    (M6).
+//!
+//! Latency: none (combinational) from a completed visit to `follow`, `outcome`, `lock` and `releases`.
+
+use super::hole_fill::HoleFill;
+use super::hole_ring::HoleRing;
+use super::hole_step::HoleStep;
+use super::hole_writer::HoleWriter;
+use super::named_vertex::NamedVertex;
+use super::star_case::StarCase;
+use super::star_step::StarStep;
+use super::star_store::StarStore;
+use super::star_visits::StarVisits;
+use crate::engine::types::{
+    Bundle, Committed, Completion, Entry, FillEnd, Follow, Hole, HoleOf, KeptWrite, LockWrite, Outcome, ReleaseJob,
+    ReleaseRequest, RingCount, Star, Start, TestVertices, Turned, Upcoming, VertexId, Visit, Write,
+};
+use crate::prelude::*;
+use incircle_protocol::Config;
+
+#[derive(LogicBlock, Default)]
+pub struct Holes {
+    pub clock: Signal<In, Clock>,
+    /// Reset drops all deletions.
+    pub reset: Signal<In, Bit>,
+    /// A run of deletions is under way.
+    pub deletes: Signal<In, Bit>,
+    pub infinite: Signal<In, VertexId>,
+    pub ring_capacity: Signal<In, RingCount>,
+    /// A context that starts and may take a vertex at this edge.
+    pub start: Signal<In, Start>,
+    /// The visit that completes in the next clock, with the priority of its context; and the one that completes in this
+    /// clock, and whether the first two corners of its record and the third turn left.
+    pub early: Signal<In, Upcoming>,
+    pub holds_priority: Signal<In, Bit>,
+    pub completion: Signal<In, Completion>,
+    pub turns_left: Signal<In, Bit>,
+    /// The visit that reads its record, and the vertices of its test two clocks later.
+    pub issued: Signal<In, Visit>,
+    pub vertices: Signal<Out, TestVertices>,
+    /// The record of the completed visit names the vertex of its context; or is free.
+    pub names: Signal<Out, Bit>,
+    pub is_free: Signal<Out, Bit>,
+    /// The completed visit is this block's, or a root that opens a star (`opens_star`).
+    pub is_done: Signal<Out, Bit>,
+    pub opens_star: Signal<Out, Bit>,
+    /// The visits that follow, the consequences, and a lock and a release.
+    pub follow: Signal<Out, Follow>,
+    pub outcome: Signal<Out, Outcome>,
+    pub lock: Signal<Out, LockWrite>,
+    pub releases: Signal<Out, ReleaseRequest>,
+    /// A test that is asked for, and whether it enters the queue at this edge.
+    pub push: Signal<Out, Bundle>,
+    pub push_valid: Signal<Out, Bit>,
+    pub pushes: Signal<In, Bit>,
+    /// The item that ends, if `may_end`.
+    pub ending: Signal<Out, FillEnd>,
+    pub may_end: Signal<In, Bit>,
+    pub write: Signal<Out, Write>,
+    pub erased: Signal<Out, Committed>,
+    pub kept: Signal<Out, KeptWrite>,
+    named: NamedVertex,
+    kind: StarCase,
+    store: StarStore,
+    step: StarStep,
+    visits: StarVisits,
+    hole: HoleStep,
+    fill: HoleFill,
+    ring: HoleRing,
+    writer: HoleWriter,
+    early_visit: Signal<Local, Visit>,
+    visit: Signal<Local, Visit>,
+    turned: Signal<Local, Turned>,
+    held: Signal<Local, Star>,
+    star_after: Signal<Local, Star>,
+    opens: Signal<Local, Bit>,
+    names_it: Signal<Local, Bit>,
+    entry: Signal<Local, Entry>,
+    locks: Signal<Local, ReleaseJob>,
+    asked: Signal<Local, HoleOf>,
+    tested: Signal<Local, Hole>,
+    bundle: Signal<Local, Bundle>,
+    ends_item: Signal<Local, Bit>,
+}
+
+impl Holes {
+    pub fn new(config: Config) -> Self {
+        Self {
+            named: NamedVertex::new(config),
+            store: StarStore::new(config),
+            step: StarStep::new(config),
+            hole: HoleStep::new(config),
+            fill: HoleFill::new(config),
+            ring: HoleRing::new(config),
+            ..Self::default()
+        }
+    }
+}
+
+impl Logic for Holes {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, named, kind, store, hole, fill, ring, writer);
+        self.fill.reset.next = self.reset.val();
+        self.writer.reset.next = self.reset.val();
+        self.early_visit.next = self.early.val().visit;
+        self.visit.next = self.completion.val().visit;
+        self.turned.next = self.completion.val().turned;
+        self.named.start.next = self.start.val();
+        self.named.early.next = self.early.val();
+        self.names_it.next = self.named.names0.val() | self.named.names1.val() | self.named.names2.val();
+        self.names.next = self.names_it.val();
+        self.is_free.next = self.named.is_free.val();
+        self.kind.deletes.next = self.deletes.val();
+        self.kind.early.next = self.early.val();
+        self.kind.holds_priority.next = self.holds_priority.val();
+        self.opens.next = self.kind.is_root.val() & self.names_it.val();
+        self.opens_star.next = self.opens.val();
+        self.is_done.next = self.kind.is_star.val() | self.kind.is_test.val();
+
+        self.store.early_visit.next = self.early_visit.val();
+        self.store.visit.next = self.visit.val();
+        self.held.next = self.store.held.val();
+        self.step.visit.next = self.visit.val();
+        self.step.turned.next = self.turned.val();
+        self.step.is_star.next = self.kind.is_star.val();
+        self.step.is_outside.next = self.kind.is_outside.val();
+        self.step.is_foreign.next = self.kind.is_foreign.val();
+        self.step.is_awaited.next = self.kind.is_awaited.val();
+        self.step.ring_capacity.next = self.ring_capacity.val();
+        self.step.held.next = self.held.val();
+        self.star_after.next = self.step.after.val();
+        if self.opens.val() {
+            self.star_after.next.left_head = self.visits.left.val();
+            self.star_after.next.right_head = self.visits.right.val();
+            self.star_after.next.first = 0.into();
+            self.star_after.next.last = 0.into();
+            self.star_after.next.has_infinite = false;
+            self.star_after.next.infinite = 0.into();
+            self.star_after.next.has_triangle = false;
+            self.star_after.next.drains = false;
+            self.star_after.next.is_too_long = false;
+            self.star_after.next.outstanding = 3.into();
+            self.star_after.next.count = 3.into();
+            self.star_after.next.logged = 1.into();
+        }
+        self.store.changes.next = self.kind.is_star.val() | self.opens.val();
+        self.store.after.next = self.star_after.val();
+
+        self.hole.early_visit.next = self.early_visit.val();
+        self.hole.visit.next = self.visit.val();
+        self.hole.turned.next = self.turned.val();
+        self.hole.verdict.next = self.completion.val().verdict;
+        self.hole.best_is_left.next = self.turns_left.val();
+        self.hole.is_test.next = self.kind.is_test.val();
+        self.hole.opens.next = self.step.opens.val();
+        self.hole.star.next = self.step.after.val();
+        self.fill.came.next = self.hole.came.val();
+        self.fill.pushes.next = self.pushes.val();
+        self.fill.may_end.next = self.may_end.val();
+        self.fill.takes.next = self.start.val().takes;
+        self.fill.taker.next = self.start.val().context;
+        self.fill.taken.next = self.start.val().id;
+        self.fill.is_full.next = self.writer.is_full.val();
+        self.writer.job.next = self.fill.job.val();
+        self.ending.next = self.fill.ending.val();
+        self.asked.next = self.fill.hole.val();
+        self.hole.stores.next = self.fill.asks.val() & self.pushes.val();
+        self.hole.stored.next = self.asked.val();
+
+        self.visits.visit.next = self.visit.val();
+        self.visits.turned.next = self.turned.val();
+        self.visits.names1.next = self.named.names1.val();
+        self.visits.names2.next = self.named.names2.val();
+        self.visits.opens.next = self.opens.val();
+        self.visits.looks_outside.next = self.step.looks_outside.val();
+        self.visits.goes_on.next = self.step.goes_on.val();
+        self.visits.onward.next = self.step.onward.val();
+        self.visits.outside.next = self.step.outside.val();
+        self.visits.next_place.next = self.step.next_place.val();
+        self.visits.tests.next = self.kind.is_test.val();
+        self.visits.hole.next = self.hole.tested.val();
+        self.follow.next.asks =
+            self.opens.val() | self.step.revisits.val() | self.step.looks_outside.val() | self.hole.asks.val();
+        self.follow.next.may_ask = self.kind.may_ask.val() | self.opens.val();
+        self.follow.next.bundle = self.visits.bundle.val();
+
+        // The test that the fill asks for is the first one of an interval.
+        self.tested.next = self.asked.val().hole;
+        self.bundle.next.is_pair = false;
+        self.bundle.next.is_triple = false;
+        self.bundle.next.context = self.asked.val().context;
+        self.bundle.next.rotates = true;
+        self.bundle.next.locks = false;
+        self.bundle.next.entry = self.tested.val().i;
+        self.bundle.next.after = self.tested.val().j;
+        self.bundle.next.cavity_entry = self.tested.val().best;
+        self.bundle.next.cavity_record = bit_cast::<15, 6>(self.tested.val().challenger);
+        self.bundle.next.record = 0.into();
+        self.bundle.next.second_after = 0.into();
+        self.bundle.next.second_record = 0.into();
+        self.bundle.next.third_record = 0.into();
+        self.push_valid.next = self.fill.asks.val();
+        self.push.next = self.bundle.val();
+
+        // M3: the record outside, which is locked, becomes an entry of the ring.
+        self.entry.next.first_vertex = self.turned.val().v2;
+        self.entry.next.outside_record = self.visit.val().record;
+        self.entry.next.slot = self.turned.val().slot;
+        self.entry.next.cavity_record = self.visit.val().cavity_record;
+        self.entry.next.after = 0.into();
+        self.ring.entry.next.valid = self.step.settles.val();
+        self.ring.entry.next.context = self.visit.val().context;
+        self.ring.entry.next.place = self.visit.val().entry;
+        self.ring.entry.next.entry = self.entry.val();
+        self.ring.visit.next = self.issued.val();
+        self.vertices.next = self.ring.vertices.val();
+        self.ring.reader.next = self.writer.reader.val();
+        self.ring.place.next = self.writer.place.val();
+        self.writer.word.next = self.ring.word.val();
+        self.writer.infinite.next = self.infinite.val();
+        self.write.next = self.writer.write.val();
+        self.erased.next = self.writer.erased.val();
+        self.kept.next = self.writer.kept.val();
+
+        self.lock.next.valid = self.kind.is_star.val() & self.turned.val().took;
+        self.lock.next.context = self.visit.val().context;
+        self.lock.next.place = self.held.val().logged;
+        self.lock.next.id = self.visit.val().record;
+        self.locks.next.context = self.visit.val().context;
+        self.locks.next.locks = self.step.after.val().logged;
+        self.releases.next.valid = self.step.fails.val();
+        self.releases.next.job = self.locks.val();
+        self.ends_item.next = self.step.fails.val() & self.step.after.val().is_too_long;
+        self.outcome.next.context = self.visit.val().context;
+        self.outcome.next.sleeps = self.step.fails.val();
+        self.outcome.next.will_retry = self.step.fails.val() & (!self.ends_item.val());
+        self.outcome.next.hands_over = self.step.fails.val();
+        self.outcome.next.asks_for_priority = self.step.aborts.val();
+        self.outcome.next.waits = self.step.revisits.val();
+        self.outcome.next.returns_priority = self.ends_item.val();
+        self.outcome.next.overflows = false;
+        self.outcome.next.duplicate = self.ends_item.val();
+        self.outcome.next.root_enable = false;
+        self.outcome.next.root = 0.into();
+    }
+}

@@ -1,0 +1,33 @@
+//! The deletion of vertices. [`Holes`] draws its blocks.
+//!
+//! Rules of a mesh that lives (see `docs/living-mesh.md`): M2, M8 ([`NamedVertex`]); M3 ([`Holes`]); M4, M5
+//! ([`StarCase`], [`StarStep`]); M6, M8 ([`HoleWriter`]).
+
+mod hole_fill;
+mod hole_merge;
+mod hole_ring;
+mod hole_step;
+mod hole_writer;
+#[allow(clippy::module_inception)]
+mod holes;
+mod named_vertex;
+mod next_interval;
+mod next_place;
+mod star_case;
+mod star_step;
+mod star_store;
+mod star_visits;
+
+pub use hole_fill::{FillState, HoleFill};
+pub use hole_merge::HoleMerge;
+pub use hole_ring::HoleRing;
+pub use hole_step::HoleStep;
+pub use hole_writer::HoleWriter;
+pub use holes::Holes;
+pub use named_vertex::NamedVertex;
+pub use next_interval::NextInterval;
+pub use next_place::NextPlace;
+pub use star_case::StarCase;
+pub use star_step::StarStep;
+pub use star_store::StarStore;
+pub use star_visits::StarVisits;

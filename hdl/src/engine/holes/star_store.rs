@@ -1,0 +1,54 @@
+//! The stars of all contexts. The star of a context is at hand in the clock in which one of its visits completes, and
+//! changes in the same clock.
+//!
+//! 1. A visit sees the effects of all visits before it, also of one in the clock before.
+//!
+//! Latency: 1 clock from `early_visit` to `held`.
+
+use crate::engine::types::{context_bits, Star, Visit, CONTEXT_BITS, STAR_BITS};
+use crate::leaf::{LutMemory, Unpack};
+use crate::prelude::*;
+use incircle_protocol::Config;
+
+#[derive(LogicBlock, Default)]
+pub struct StarStore {
+    pub clock: Signal<In, Clock>,
+    /// The visit that completes in the next clock, and the one that completes in this clock.
+    pub early_visit: Signal<In, Visit>,
+    pub visit: Signal<In, Visit>,
+    /// The star of the visit of this clock, and its state after the visit (`changes`).
+    pub held: Signal<Out, Star>,
+    pub changes: Signal<In, Bit>,
+    pub after: Signal<In, Star>,
+    stars: LutMemory<CONTEXT_BITS, STAR_BITS>,
+    stored: Unpack<Star, STAR_BITS>,
+    written: Signal<Local, Bits<STAR_BITS>>,
+    state: DFF<Star>,
+    goes_round: Signal<Local, Bit>,
+}
+
+impl StarStore {
+    pub fn new(config: Config) -> Self {
+        Self { stars: LutMemory::new(context_bits(config), STAR_BITS), ..Self::default() }
+    }
+}
+
+impl Logic for StarStore {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state);
+        clock!(self, clock, stars);
+        self.held.next = self.state.q.val();
+        self.written.next = self.after.val().into();
+        self.stars.write_address.next = self.visit.val().context;
+        self.stars.write_data.next = self.written.val();
+        self.stars.write_enable.next = self.changes.val();
+        self.stars.read_address.next = self.early_visit.val().context;
+        self.stored.bits.next = self.stars.read_data.val();
+        self.goes_round.next = self.changes.val() & (self.early_visit.val().context == self.visit.val().context);
+        self.state.d.next = self.stored.value.val();
+        if self.goes_round.val() {
+            self.state.d.next = self.after.val();
+        }
+    }
+}
