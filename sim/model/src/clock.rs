@@ -9,6 +9,7 @@
 //! hardware but the protocol.
 
 mod answer;
+mod attempt;
 mod attempts;
 mod beat;
 mod command_port;
@@ -20,11 +21,13 @@ mod defect;
 mod holes;
 mod living;
 mod memory;
+mod outcome;
 mod pipeline;
 mod ports;
 mod questions;
 mod record_reads;
 mod release;
+mod release_job;
 mod responder;
 mod ring;
 mod runs;
@@ -32,6 +35,7 @@ mod seeder;
 mod solo;
 mod starter;
 mod view;
+mod visit;
 mod watchdog;
 mod wires;
 
@@ -41,10 +45,11 @@ use holes::Holes;
 use incircle_protocol::{Config, ConfigError};
 use living::LivingEngine;
 use memory::Memory;
-use pipeline::{Bundle, Pipeline};
+use pipeline::Pipeline;
 use questions::{Launch, Questions};
 use release::Release;
 use ring::RingReader;
+use visit::Bundle;
 use wires::Registers;
 
 pub use defect::Defect;

@@ -5,107 +5,14 @@
 //! A completing visit belongs to one context, and the state of that context's attempt is read, changed and written back
 //! in the same clock. Nothing else changes that state, so two visits can never interfere.
 
+use super::attempt::Attempt;
 use super::commit_job::CommitJob;
 use super::defect::Defect;
-use super::holes::{Hole, Star};
 use super::memory::{Entry, Memory};
-use super::pipeline::{Bundle, Completion};
-use super::release::ReleaseJob;
-use super::wires::{Registers, Wires};
-use incircle_protocol::Config;
-
-/// The cavity of one insertion, from the root visit on.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Attempt {
-    /// Number of visits that were pushed and have not completed.
-    pub outstanding: u32,
-    /// Number of entries in the ring.
-    pub count: u32,
-    /// Number of inner records.
-    pub inners: u32,
-    /// Number of locks in the log.
-    pub logged: u32,
-    /// Bit `y` says that the boundary has moved across one of the two edges that the cavity record of entry `y`
-    /// brought. The root uses bits 0 and 1.
-    pub half_open: u64,
-    /// Whether the attempt aborts: its visits in flight complete first.
-    pub drains: bool,
-}
-
-/// The consequences of a completing visit for its context.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Outcome {
-    pub context: usize,
-    /// The visits to be made next.
-    pub push: Option<Bundle>,
-    /// Whether no visit of the context is in flight any more.
-    pub sleeps: bool,
-    /// Whether the context tries its point again when it wakes.
-    pub will_retry: bool,
-    /// The record at which the context then starts to walk.
-    pub root: Option<u32>,
-    /// The attempt after this visit.
-    pub attempt: Option<Attempt>,
-    /// A final edge of the boundary, with its place in the list.
-    pub entry: Option<(usize, Entry)>,
-    /// An inner record, with its place in the list.
-    pub inner: Option<(u32, u32)>,
-    /// A lock that was set, with its place in the log.
-    pub lock: Option<(u32, u32)>,
-    pub commit: Option<CommitJob>,
-    pub release: Option<ReleaseJob>,
-    /// Whether the context acquires the priority, if that is free.
-    pub asks_for_priority: bool,
-    /// Whether the context returns the priority, if it holds it.
-    pub returns_priority: bool,
-    /// Whether the list has overflowed, so that the context asks for a solo insertion.
-    pub overflows: bool,
-    pub aborts: bool,
-    pub root_changed: bool,
-    /// Whether the same visit is made again, and whether that is because of a lock for which the context waits.
-    pub revisits: bool,
-    pub waits: bool,
-    pub duplicate: bool,
-    /// Whether the visit was the look at the first three points.
-    pub looks: bool,
-    /// In a run of deletions: the star after this visit; the hole that is tested on; and the hole whose next apex is
-    /// known, or that opens.
-    pub star: Option<Star>,
-    pub tests_on: Option<Hole>,
-    pub opens_hole: Option<Hole>,
-}
-
-/// The surroundings that a completion sees.
-pub(super) struct Around<'a> {
-    pub was: &'a Registers,
-    pub attempt: Attempt,
-    pub vertex: u32,
-    pub since: u32,
-    pub config: Config,
-    pub infinite: u32,
-    pub defect: Option<Defect>,
-}
-
-impl Around<'_> {
-    /// L6: whether a commit or release of the context's last point is due.
-    pub(super) fn is_busy(&self, context: usize) -> bool {
-        self.was.noted.busy & 1 << context != 0 && self.defect != Some(Defect::OpensWhileBusy)
-    }
-
-    /// Number of places of the list, and the place of a visit of a star in it.
-    pub(super) fn places(&self) -> usize {
-        (self.config.ring as usize).next_power_of_two()
-    }
-
-    pub(super) fn place(&self, entry: usize) -> usize {
-        entry % self.places()
-    }
-
-    /// L2: whether the context holds the priority.
-    pub(super) fn holds_priority(&self, context: usize) -> bool {
-        self.was.noted.holders & 1 << context != 0
-    }
-}
+use super::outcome::{Around, Outcome};
+use super::release_job::ReleaseJob;
+use super::visit::{Bundle, Completion};
+use super::wires::Wires;
 
 impl Outcome {
     pub(super) fn of(done: &Completion, around: &Around) -> Self {
@@ -115,21 +22,6 @@ impl Outcome {
             (false, true) => out.root(done, around),
             _ => out.test(done, around),
         }
-    }
-
-    /// Asks for the same visit once more.
-    pub(super) fn again(mut self, done: &Completion) -> Self {
-        self.push = Some(Bundle::one(done.visit));
-        self.revisits = true;
-        self
-    }
-
-    /// Puts the context to sleep; later it tries again from this record.
-    pub(super) fn abort(mut self, root: u32) -> Self {
-        self.sleeps = true;
-        self.will_retry = true;
-        self.root = Some(root);
-        self
     }
 
     fn walk(mut self, done: &Completion, around: &Around) -> Self {
@@ -188,17 +80,6 @@ impl Outcome {
         }
         self.root_changed = true;
         self.abort(done.walk_next)
-    }
-
-    /// L1, L2: another context holds the lock of the root.
-    pub(super) fn foreign_root(mut self, done: &Completion, around: &Around) -> Self {
-        if around.holds_priority(self.context) {
-            self.waits = true;
-            return self.again(done);
-        }
-        self.aborts = true;
-        self.asks_for_priority = true;
-        self.abort(done.visit.record)
     }
 
     fn test(mut self, done: &Completion, around: &Around) -> Self {
@@ -278,16 +159,6 @@ impl Outcome {
                 since: around.since,
             });
         }
-    }
-}
-
-impl Attempt {
-    fn passes_last_edge(&mut self, cavity_entry: usize) -> bool {
-        let bit = 1 << cavity_entry;
-        let half = self.half_open & bit != 0;
-        let root_half = cavity_entry == 0 && half && self.half_open & 2 == 0;
-        self.half_open |= bit | u64::from(root_half) << 1;
-        half && !root_half
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! Hardware twin: the block `ContextFlags`.
 
-use super::attempts::Outcome;
 use super::defect::Defect;
+use super::outcome::Outcome;
 use super::wires::{Registers, Wires};
 
 /// A set of contexts, with one bit for each.

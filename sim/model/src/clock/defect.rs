@@ -1,6 +1,8 @@
 //! Rules of the engine that can be left out, to show that each rule is needed and that tests notice its absence.
 
-/// A rule, or a part of a rule, that is left out. `docs/engine.md` says what each rule demands.
+/// A rule, or a part of a rule, that is left out. `docs/engine.md` says what each rule of insertions (L) demands, and
+/// `docs/living-mesh.md` each rule of a mesh that lives (M). Deletions without M1, M4, M5, M6 or M7 are those without
+/// L6, L1, L2, L4 or L9.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Defect {
     /// L1: a test that finds a foreign lock goes on.
@@ -37,4 +39,10 @@ pub enum Defect {
     TiesByTheWayIn,
     /// L11: a first walk starts in the mesh of job 0, whatever the job of its context.
     StartsInAnyMesh,
+    /// M2: the root visit of a deletion trusts that the record still names the vertex.
+    TrustsTheWalkToAVertex,
+    /// M3: the records outside a star are read without their locks.
+    LeavesTheRingOpen,
+    /// M8: a walk takes a free record for a triangle.
+    WalksOnFreeRecords,
 }

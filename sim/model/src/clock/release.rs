@@ -4,19 +4,11 @@
 //! Hardware twin: the block `Release`.
 
 use super::defect::Defect;
-use super::holes::release_of;
 use super::memory::Memory;
+use super::release_job::ReleaseJob;
 use super::wires::Wires;
 use incircle_protocol::{triangle_capacity, Config};
 use std::collections::VecDeque;
-
-/// The locks of an attempt, to be released.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ReleaseJob {
-    pub context: usize,
-    /// Number of locks in the log, at least one.
-    pub locks: u32,
-}
 
 /// A lock on its way from the log.
 #[derive(Clone, Copy, Debug)]
@@ -81,9 +73,15 @@ impl Release {
             wires.committed
         };
         self.after_commit.extend(committed.map(|job| ReleaseJob { context: job.context, locks: job.locks }));
-        self.after_commit.extend(wires.erased.map(|job| ReleaseJob { context: job.context, locks: job.locks }));
+        // M6: so are those of a deletion.
+        let erased = if defect == Some(Defect::ReleasesBeforeWritten) {
+            wires.fill_end.filter(|end| !end.is_flat).map(|end| ReleaseJob { context: end.context, locks: end.locks })
+        } else {
+            wires.erased.map(|job| ReleaseJob { context: job.context, locks: job.locks })
+        };
+        self.after_commit.extend(erased);
         self.after_failure.extend(wires.outcome.and_then(|outcome| outcome.release));
-        self.after_failure.extend(wires.fill_end.as_ref().and_then(release_of));
+        self.after_failure.extend(wires.fill_end.and_then(|end| end.release()));
     }
 
     fn fetch(&mut self, memory: &Memory) -> Option<Fetch> {

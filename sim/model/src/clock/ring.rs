@@ -2,9 +2,9 @@
 //!
 //! Hardware twin: the block `RingReader`.
 
-use super::attempts::Outcome;
 use super::commit_job::CommitJob;
 use super::memory::{Entry, Memory};
+use super::outcome::Outcome;
 use std::collections::VecDeque;
 
 /// An entry on its way through the stages.

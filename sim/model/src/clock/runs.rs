@@ -4,9 +4,9 @@ use super::command_port::State as CommandState;
 use super::holes::Holes;
 use super::living::{LivingDefect, LivingEngine, RunCounts, Signals, Signature, Standing};
 use super::memory::Write;
-use super::pipeline::Completion;
 use super::ports::{Inputs, Outputs};
 use super::questions::{Events, ItemEnd, Launch, Questions, Signals as QuestionSignals};
+use super::visit::Completion;
 use super::wires::{Registers, Wires};
 use super::ClockModel;
 use incircle_protocol::{

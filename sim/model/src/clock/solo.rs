@@ -4,7 +4,7 @@
 
 use super::attempts::Tables;
 use super::memory::{Memory, Write};
-use super::pipeline::{Bundle, Completion};
+use super::visit::{Bundle, Completion};
 use super::wires::{Registers, Wires};
 use crate::mesh::Record;
 

@@ -7,7 +7,7 @@ use super::attempts::Tables;
 use super::contexts::{team_of, Set};
 use super::defect::Defect;
 use super::memory::Memory;
-use super::pipeline::Bundle;
+use super::visit::Bundle;
 use super::wires::{Registers, Wires};
 use incircle_protocol::FIRST_ROUND;
 

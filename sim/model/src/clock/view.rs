@@ -2,7 +2,7 @@
 //!
 //! Nothing here changes the model, and the model does not use it.
 
-use super::pipeline::{Bundle, Visit};
+use super::visit::{Bundle, Visit};
 use super::ClockModel;
 use crate::mesh::Record;
 

@@ -5,7 +5,6 @@
 //! some of them, with types of its own, as the blocks of the core do.
 //! `testbench/tests/it/project/import_circles` allows no other.
 
-use super::attempts::{Around, Outcome};
 use super::command_port::{CommandPort, State as CommandState};
 use super::commit::Commit;
 use super::commit_job::CommitJob;
@@ -13,7 +12,7 @@ use super::contexts::Contexts;
 use super::counters::Counters;
 use super::holes::{FillEnd, Holes};
 use super::memory::Write;
-use super::pipeline::{Bundle, Completion};
+use super::outcome::{Around, Outcome};
 use super::ports::Inputs;
 use super::questions::{Launch, Questions};
 use super::responder::Responder;
@@ -21,6 +20,7 @@ use super::ring::Head;
 use super::seeder::Seeder;
 use super::solo::Solo;
 use super::starter::{Start, Starter};
+use super::visit::{Bundle, Completion};
 use super::watchdog::{FinishedPoints, Watchdog};
 use super::ClockModel;
 use crate::predicate::Point;

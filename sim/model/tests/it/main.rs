@@ -11,6 +11,7 @@ mod clock {
     mod by_command;
     mod defects;
     mod delete_cycles;
+    mod deletion_defects;
     mod deletions;
     mod hang;
     mod orders;

@@ -5,7 +5,8 @@
 use super::hole::{Base, Hole};
 use super::writer::{Job, Writer};
 use crate::clock::memory::Memory;
-use crate::clock::pipeline::Bundle;
+use crate::clock::release_job::ReleaseJob;
+use crate::clock::visit::Bundle;
 use std::collections::VecDeque;
 
 /// A deletion whose hole is full.
@@ -16,6 +17,13 @@ pub(in super::super) struct FillEnd {
     pub is_flat: bool,
     pub locks: u32,
     hole: Hole,
+}
+
+impl FillEnd {
+    /// The release of the locks of the context, if its item ends without a change.
+    pub(in super::super) fn release(&self) -> Option<ReleaseJob> {
+        self.is_flat.then_some(ReleaseJob { context: self.context, locks: self.locks })
+    }
 }
 
 /// The next step for the hole at work.

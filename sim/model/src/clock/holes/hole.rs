@@ -10,9 +10,9 @@
 //! star's record on the ring edge that begins at the apex. The ids of the two ends become free.
 
 use super::star::Star;
-use crate::clock::attempts::Attempt;
+use crate::clock::attempt::Attempt;
 use crate::clock::memory::Memory;
-use crate::clock::pipeline::{Bundle, Visit};
+use crate::clock::visit::{Bundle, Visit};
 use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
 
 /// The other side of the base of an interval.
@@ -43,7 +43,8 @@ pub(in super::super) struct Hole {
     first: usize,
     last: usize,
     places: usize,
-    /// Number of intervals that wait.
+    /// Number of intervals that wait, at most 14 in a ring of 32: each has two of the 30 vertices between its ends, an
+    /// apex and one behind it, and the interval at work has one.
     pub depth: usize,
     /// Whether nothing may be written, since perhaps no triangle is left.
     pub is_dry: bool,

@@ -14,13 +14,13 @@
 mod fill;
 mod hole;
 mod star;
+mod star_step;
 mod writer;
 
-use super::attempts::Outcome;
 use super::commit_job::CommitJob;
 use super::memory::{Memory, Write};
-use super::pipeline::Bundle;
-use super::release::ReleaseJob;
+use super::outcome::Outcome;
+use super::visit::Bundle;
 use fill::Fill;
 pub(super) use fill::FillEnd;
 pub(super) use hole::{replaces, Hole};
@@ -84,9 +84,4 @@ impl Holes {
             self.fill.arrives(outcome.context, hole);
         }
     }
-}
-
-/// The release of the locks of a context whose item ends without a change.
-pub(super) fn release_of(end: &FillEnd) -> Option<ReleaseJob> {
-    end.is_flat.then_some(ReleaseJob { context: end.context, locks: end.locks })
 }

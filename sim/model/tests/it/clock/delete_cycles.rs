@@ -30,7 +30,7 @@ fn on_curve([x, y]: [u32; 2]) -> u64 {
     let (mut x, mut y, mut along) = (x, y, 0);
     for bit in (0..16).rev() {
         let [a, b] = [x >> bit & 1, y >> bit & 1];
-        along = along << 2 | u64::from(3 * a ^ b);
+        along = along << 2 | u64::from((3 * a) ^ b);
         if b == 0 {
             if a == 1 {
                 (x, y) = (!x & 0xffff, !y & 0xffff);

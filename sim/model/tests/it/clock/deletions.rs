@@ -5,7 +5,9 @@ use crate::living::scripts::Script;
 use incircle_model::ClockModel;
 use incircle_protocol::{Config, RunKind};
 
-const KINDS: [RunKind; 5] = [RunKind::Locate, RunKind::Nearest, RunKind::InsertAs, RunKind::Delete, RunKind::Delete];
+/// The kinds of runs that scripts choose from: deletions twice as often as each other kind.
+pub const KINDS: [RunKind; 5] =
+    [RunKind::Locate, RunKind::Nearest, RunKind::InsertAs, RunKind::Delete, RunKind::Delete];
 
 fn core(config: Config) -> ClockModel {
     ClockModel::new(config).expect("a core that can be built").with_questions()

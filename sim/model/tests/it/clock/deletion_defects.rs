@@ -1,0 +1,108 @@
+//! Every lock rule of deletions is needed: a core without one of them does some script of insertions, deletions and
+//! questions wrong, hangs, or comes into a state that no core can be in. The complete core does all of these scripts
+//! right. Rules that deletions share with insertions have the defects of those.
+
+use super::deletions::KINDS;
+use crate::common::living::{Fault, Pair};
+use crate::living::scripts::Script;
+use incircle_model::{ClockModel, Defect};
+use std::panic::{catch_unwind, AssertUnwindSafe};
+
+/// What went wrong in a script without a rule.
+#[derive(Clone, Debug)]
+enum Symptom {
+    Hang,
+    Wrong,
+    Panic,
+}
+
+/// Runs a script in 16 contexts on a core with or without one of its rules.
+fn run(seed: u32, defect: Option<Defect>) -> Result<(), Fault> {
+    let mut script = Script::crowded(seed);
+    script.kinds = &KINDS;
+    let config = script.config();
+    let core = ClockModel::new(config).expect("a core that can be built").with_questions();
+    let core = match defect {
+        Some(defect) => core.with_defect(defect),
+        None => core,
+    };
+    script.run_on(Pair::of(config, core)).map(drop)
+}
+
+fn symptom(seed: u32, defect: Defect) -> Option<Symptom> {
+    match catch_unwind(AssertUnwindSafe(|| run(seed, Some(defect)).err())) {
+        Err(_) => Some(Symptom::Panic),
+        Ok(None) => None,
+        Ok(Some(Fault::Hang)) => Some(Symptom::Hang),
+        Ok(Some(Fault::Wrong(_))) => Some(Symptom::Wrong),
+    }
+}
+
+/// Looks for the first script that a core without this rule does wrong.
+fn expect(defect: Defect) {
+    const MOST: u32 = 600;
+    for seed in 0..MOST {
+        if let Some(found) = symptom(seed, defect) {
+            if let Err(fault) = run(seed, None) {
+                panic!("the complete core, script {seed}: {fault:?}");
+            }
+            println!("{defect:?}, script {seed}: {found:?}");
+            return;
+        }
+    }
+    panic!("{defect:?} does not show in {MOST} scripts");
+}
+
+/// M1: otherwise an attempt works on lists and locks that the change before still needs.
+#[test]
+fn roots_wait_for_the_last_locks() {
+    expect(Defect::OpensWhileBusy);
+}
+
+/// M2: otherwise a record that has changed since the walk becomes the root of a star.
+#[test]
+fn roots_of_stars_are_looked_at_under_their_lock() {
+    expect(Defect::TrustsTheWalkToAVertex);
+}
+
+/// M3: otherwise two stars on both sides of an edge are filled at once.
+#[test]
+fn the_ring_of_a_star_is_locked() {
+    expect(Defect::LeavesTheRingOpen);
+}
+
+/// M4: otherwise two attempts write the same records.
+#[test]
+fn foreign_locks_count() {
+    expect(Defect::IgnoresForeignLocks);
+}
+
+/// M4: otherwise a visit that is in flight takes a lock after the release.
+#[test]
+fn attempts_drain_before_they_release() {
+    expect(Defect::ReleasesBeforeDrained);
+}
+
+/// M5: otherwise contexts abort each other for ever.
+#[test]
+fn somebody_waits() {
+    expect(Defect::NobodyTakesPriority);
+}
+
+/// M6: otherwise another attempt begins on records that are still to be written.
+#[test]
+fn locks_are_released_after_the_last_write() {
+    expect(Defect::ReleasesBeforeWritten);
+}
+
+/// M7: otherwise a context waits for itself, because a record can be outside two edges of one star.
+#[test]
+fn locks_name_their_holders() {
+    expect(Defect::TakesOwnForForeign);
+}
+
+/// M8: otherwise a walk ends in a record that is no triangle any more.
+#[test]
+fn walks_leave_free_records() {
+    expect(Defect::WalksOnFreeRecords);
+}
