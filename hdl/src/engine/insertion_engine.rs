@@ -74,8 +74,8 @@ pub struct InsertionEngine {
     pub change_runs: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
     /// Ids are kept for the vertex of the item that begins. A run of deletions is under way. A vertex whose point is
-    /// wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A vertex is deleted, or
-    /// has come back with the ids that were kept for it.
+    /// wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A vertex is deleted,
+    /// or has come back with the ids that were kept for it.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
     pub wanted: Vec<Signal<In, VertexId>>,

@@ -63,7 +63,7 @@ pub struct ChangeEnds {
     part: Signal<Local, Part>,
     finding: Signal<Local, Finding>,
     is_early: Signal<Local, Bit>,
-    duplicate_outcome: Signal<Local, Bits<4>>,
+    own_context: Signal<Local, ContextId>,
     gives: Signal<Local, Bit>,
     hands_over: Signal<Local, Bit>,
     is_refused: Signal<Local, Bit>,
@@ -95,7 +95,6 @@ impl Logic for ChangeEnds {
     fn update(&mut self) {
         dff_setup!(self, clock, last_vertex, last_number, last_corner);
         clock!(self, clock, handed, done);
-        self.duplicate_outcome.next = 5.into();
         self.last_vertex.d.next = self.events.val().vertex;
         self.last_number.d.next = self.number.val();
         self.last_corner.d.next = self.corner.val();
@@ -108,10 +107,11 @@ impl Logic for ChangeEnds {
             | self.events.val().duplicate
             | self.events.val().solo_ends
             | self.events.val().fill_ends;
-        self.ends.next.context = self.context_id.val();
+        self.own_context.next = self.context_id.val();
         if self.events.val().fill_ends {
-            self.ends.next.context = self.events.val().fill_context;
+            self.own_context.next = self.events.val().fill_context;
         }
+        self.ends.next.context = self.own_context.val();
         if self.events.val().solo_ends {
             self.ends.next.context = self.events.val().solo_context;
         }
@@ -131,10 +131,7 @@ impl Logic for ChangeEnds {
         }
 
         // The next item of the context may begin before the commit of this one is over, so its number is kept.
-        self.handed.write_address.next = self.context_id.val();
-        if self.events.val().fill_ends {
-            self.handed.write_address.next = self.events.val().fill_context;
-        }
+        self.handed.write_address.next = self.own_context.val();
         self.handed.write_data.next = self.number.val();
         self.handed.write_enable.next = self.hands_over.val();
         self.handed.read_address.next = self.events.val().committed_context;
@@ -171,16 +168,15 @@ impl Logic for ChangeEnds {
         }
         if self.events.val().duplicate {
             self.part.next.number = self.number.val();
-            self.finding.next.outcome = self.duplicate_outcome.val();
+            self.finding.next.outcome = 5.into();
             self.finding.next.v0 = self.corner.val();
         }
         if self.is_refused.val() {
             self.part.next.number = self.number.val();
             self.finding.next.outcome = 10.into();
-            self.finding.next.v0 = self.events.val().vertex;
+            self.finding.next.v0 = self.remarked.val();
             if self.is_flat.val() {
                 self.finding.next.outcome = 11.into();
-                self.finding.next.v0 = self.events.val().fill_vertex;
             }
         }
         if self.events.val().solo_ends {
@@ -188,7 +184,7 @@ impl Logic for ChangeEnds {
             self.finding.next.v0 = self.last_vertex.q.val();
             self.finding.next.outcome = 0.into();
             if !self.events.val().solo_inserts {
-                self.finding.next.outcome = self.duplicate_outcome.val();
+                self.finding.next.outcome = 5.into();
                 self.finding.next.v0 = self.last_corner.q.val();
             }
         }

@@ -1,4 +1,5 @@
-//! The changes of a mesh that stands: runs of `InsertAs` and `Delete`, and all points of an `Insert` that comes after one.
+//! The changes of a mesh that stands: runs of `InsertAs` and `Delete`, and all points of an `Insert` that comes after
+//! one.
 //!
 //! ```text
 //! RunPort ----> VertexCheck --+--> ItemQueues -> launches: a context of the insertion engine starts

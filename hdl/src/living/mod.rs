@@ -2,10 +2,12 @@
 //!
 //! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
 //! of the insertion engine, which inserts nothing meanwhile. Behind the walk, a `Nearest` goes round vertices. Each
-//! `InsertAs` is an insertion of that engine. [`Questions`] and [`Changes`] draw their blocks.
+//! `InsertAs` is an insertion of that engine, and each `Delete` begins there and ends in the blocks of
+//! [`engine::holes`](crate::engine::holes). [`Questions`] and [`Changes`] draw their blocks.
 
 mod change_ends;
 mod changes;
+mod checked_item;
 mod item_dealer;
 mod item_queues;
 mod late_points;
@@ -21,6 +23,7 @@ mod run_gate;
 mod run_port;
 mod standing_view;
 pub mod types;
+mod vertex_bits;
 mod vertex_check;
 
 pub use change_ends::ChangeEnds;

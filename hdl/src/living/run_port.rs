@@ -93,12 +93,10 @@ pub struct RunPort {
     is_vertex: Signal<Local, Bit>,
     change_code: Signal<Local, Bits<8>>,
     delete_code: Signal<Local, Bits<8>>,
-    deletes: Signal<Local, Bit>,
     starts: Signal<Local, Bit>,
     awaits_item: Signal<Local, Bit>,
     passes_item: Signal<Local, Bit>,
     takes_word: Signal<Local, Bit>,
-    is_last: Signal<Local, Bit>,
     one: Signal<Local, Word>,
 }
 
@@ -119,9 +117,8 @@ impl Logic for RunPort {
         self.one.next = 1.into();
         self.change_code.next = 11.into();
         self.delete_code.next = 12.into();
-        self.deletes.next = self.code.q.val() == self.delete_code.val();
-        self.is_delete.next = self.deletes.val();
-        self.is_change.next = (self.code.q.val() == self.change_code.val()) | self.deletes.val();
+        self.is_delete.next = self.code.q.val() == self.delete_code.val();
+        self.is_change.next = (self.code.q.val() == self.change_code.val()) | self.is_delete.val();
         self.is_vertex.next = (self.code.q.val() == self.change_code.val()) & (!self.vertex_came.q.val());
         self.is_active.next = self.state.q.val() != RunState::Idle;
         self.is_nearest.next = self.code.q.val().get_bit(1) & (!self.code.q.val().get_bit(0));
@@ -132,20 +129,19 @@ impl Logic for RunPort {
         self.command.ready.next =
             (self.state.q.val() == RunState::Count) | self.awaits_item.val() | self.passes_item.val();
         self.takes_word.next = self.command.valid.val() & (self.awaits_item.val() | self.passes_item.val());
-        self.is_last.next = self.left.q.val() == self.one.val();
         if self.takes_word.val() {
             self.vertex_came.d.next = self.is_vertex.val();
         }
         if self.takes_word.val() & (!self.is_vertex.val()) {
             self.left.d.next = self.left.q.val() - self.one.val();
-            self.some_are_left.d.next = !self.is_last.val();
+            self.some_are_left.d.next = self.left.q.val() != self.one.val();
         }
         self.dealer.reset.next = self.reset.val();
         self.dealer.starts.next = self.starts.val();
         self.dealer.contexts.next = self.contexts.val();
         self.dealer.takes.next = self.awaits_item.val() & self.command.valid.val() & (!self.is_vertex.val());
         // The item of a `Delete` is its vertex alone.
-        self.dealer.takes_vertex.next = self.takes_word.val() & (self.is_vertex.val() | self.deletes.val());
+        self.dealer.takes_vertex.next = self.takes_word.val() & (self.is_vertex.val() | self.is_delete.val());
         self.vertex.next = self.dealer.vertex.val();
         self.dealer.word.next = self.command.data.val();
         self.dealer.taken.next = self.taken.val();

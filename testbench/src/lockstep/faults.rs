@@ -312,7 +312,10 @@ pub const QUESTION_FAULTS: &[Fault] = &[
 pub const CHANGE_FAULTS: &[Fault] = &[
     Fault { name: "high_vertex_is_not_refused", pieces: &[piece("is_high = @;", "vertex >= wide_capacity", "1'b0")] },
     Fault { name: "unknown_bits_are_trusted", pieces: &[piece("is_unknown = @;", "asked >= known$q", "1'b0")] },
-    Fault { name: "vertex_in_use_is_not_refused", pieces: &[piece("else if (@) begin", "is_used", "1'b0")] },
+    Fault {
+        name: "vertex_in_use_is_not_refused",
+        pieces: &[piece("is_refused = is_high | (@);", "item$is_used & (~is_unknown)", "1'b0")],
+    },
     Fault {
         name: "duplicate_stays_in_use",
         pieces: &[piece(
@@ -403,7 +406,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "flat_holes_are_filled",
         pieces: &[piece("restarts = @;", "hole[(64'h31)+:(1)] & has_left", "1'b0")],
     },
-    Fault { name: "side_of_a_hole_is_not_mended", pieces: &[piece("mend$d = @;", "side$write", "110'b0")] },
+    Fault { name: "side_of_a_hole_is_not_mended", pieces: &[piece("third = @;", "side$write", "110'b0")] },
     Fault { name: "kept_ids_are_forgotten", pieces: &[piece("has_ids = @;", "owned$q", "1'b0")] },
     Fault { name: "free_records_are_read_out", pieces: &[piece("lives = comes & @ &", "(~is_free)", "1'b1")] },
     Fault { name: "test_pushes_beside_a_visit", pieces: &[piece("pushes = asks & @ &", "(~asks_or_may)", "1'b1")] },

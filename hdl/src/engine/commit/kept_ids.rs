@@ -44,7 +44,7 @@ pub struct KeptIds {
     pub solo_first: Signal<Out, TriangleId>,
     pub solo_second: Signal<Out, TriangleId>,
     pairs: BlockMemory<VERTEX_BITS, PAIR_BITS>,
-    owners: LutMemory<CONTEXT_BITS, 1>,
+    keepers: LutMemory<CONTEXT_BITS, 1>,
     handed: LutMemory<CONTEXT_BITS, 1>,
     handed_job: Signal<Local, CommitJob>,
     solo_vertex: DFF<VertexId>,
@@ -64,7 +64,7 @@ impl KeptIds {
     pub fn new(config: Config) -> Self {
         Self {
             pairs: BlockMemory::new(vertex_id_bits(config.points) as usize - 1, PAIR_BITS),
-            owners: LutMemory::new(context_bits(config), 1),
+            keepers: LutMemory::new(context_bits(config), 1),
             handed: LutMemory::new(context_bits(config), 1),
             ..Self::default()
         }
@@ -75,7 +75,7 @@ impl Logic for KeptIds {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, solo_vertex, solo_context, has_started, pair, owned, is_second);
-        clock!(self, clock, pairs, owners, handed);
+        clock!(self, clock, pairs, keepers, handed);
         self.handed_job.next = self.commit.val().job;
         self.shift.next = 15.into();
         self.first.next = bit_cast::<PAIR_BITS, 15>(self.kept.val().first);
@@ -83,31 +83,30 @@ impl Logic for KeptIds {
         self.pairs.write_address.next = self.kept.val().vertex;
         self.pairs.write_data.next = self.first.val() | (self.second.val() << self.shift.val());
         self.pairs.write_enable.next = self.kept.val().valid;
-        self.owners.write_address.next = self.start.val().context;
-        self.owners.write_data.next = 0.into();
+        self.keepers.write_address.next = self.start.val().context;
+        self.keepers.write_data.next = 0.into();
         if self.owns.val() {
-            self.owners.write_data.next = 1.into();
+            self.keepers.write_data.next = 1.into();
         }
-        self.owners.write_enable.next = self.start.val().takes;
+        self.keepers.write_enable.next = self.start.val().takes;
 
-        self.starts.next =
-            self.solo_start.val().valid & (!self.solo_is_at_work.val()) & (!self.has_started.q.val());
+        self.starts.next = self.solo_start.val().valid & (!self.solo_is_at_work.val()) & (!self.has_started.q.val());
         self.has_started.d.next = self.starts.val();
         if self.starts.val() {
             self.solo_vertex.d.next = self.solo_start.val().vertex;
             self.solo_context.d.next = self.solo_start.val().context;
         }
         self.pairs.read_address.next = self.job.val().vertex;
-        self.owners.read_address.next = self.handed_job.val().context;
+        self.keepers.read_address.next = self.handed_job.val().context;
         self.handed.write_address.next = self.handed_job.val().context;
-        self.handed.write_data.next = self.owners.read_data.val();
+        self.handed.write_data.next = self.keepers.read_data.val();
         self.handed.write_enable.next = self.commit.val().valid;
         self.handed.read_address.next = self.job.val().context;
         if self.solo_is_at_work.val() {
             self.pairs.read_address.next = self.solo_vertex.q.val();
-            self.owners.read_address.next = self.solo_context.q.val();
+            self.keepers.read_address.next = self.solo_context.q.val();
         }
-        self.solo_has_ids.next = self.owners.read_data.val().any();
+        self.solo_has_ids.next = self.keepers.read_data.val().any();
         self.solo_first.next = self.pairs.read_data.val().get_bits::<15>(0);
         self.solo_second.next = self.pairs.read_data.val().get_bits::<15>(15);
 

@@ -2,18 +2,16 @@
 //!
 //! 1. A job reads three edges of its ring, one a clock, and makes up to three writes. A job follows another after three
 //!    clocks.
-//! 2. The triangle takes the id of the star's record at its apex. Its neighbours across the two sides are the records
-//!    outside; where another triangle will stand on a side, that one sets the link in its turn.
-//! 3. A free record has the infinite vertex three times and names the record of the second place (M8). The ids of the
-//!    two are kept for the vertex.
+//! 2. The writes of a job are those of [`HoleRecords`]. The last one of a deletion is the mark of its second free
+//!    record; the ids of both are then kept for the vertex (`kept`).
 //!
 //! Latency: 5 clocks from the take of a job to its first request.
 
+use super::hole_records::HoleRecords;
 use crate::engine::types::{
-    CommitJob, Committed, ContextId, FillJob, FillRequest, KeptWrite, RingEntry, RingWord, Slot, TriangleId, VertexId,
-    Write, FILL_JOB_BITS,
+    CommitJob, Committed, ContextId, FillJob, FillRequest, KeptWrite, RingEntry, RingWord, VertexId, Write,
+    FILL_JOB_BITS,
 };
-use crate::engine::write::{LinkWrite, RecordWrite};
 use crate::leaf::{Fifo, Unpack};
 use crate::prelude::*;
 
@@ -53,14 +51,11 @@ pub struct HoleWriter {
     request: DFF<Write>,
     base_link: DFF<Write>,
     mend: DFF<Write>,
-    record: RecordWrite,
-    link: LinkWrite,
-    side: LinkWrite,
+    records: HoleRecords,
     came: Signal<Local, FillJob>,
     came_bits: Signal<Local, Bits<FILL_JOB_BITS>>,
     taken: Signal<Local, FillJob>,
     at_work: Signal<Local, FillJob>,
-    edge_j: Signal<Local, RingWord>,
     ended: Signal<Local, CommitJob>,
     takes: Signal<Local, Bit>,
     is_due: Signal<Local, Bit>,
@@ -70,13 +65,6 @@ pub struct HoleWriter {
     none: Signal<Local, Bits<2>>,
     valid_shift: Signal<Local, Bits<8>>,
     valid_one: Signal<Local, Bits<8>>,
-    is_ring_base: Signal<Local, Bit>,
-    is_end_base: Signal<Local, Bit>,
-    ring_base: Signal<Local, Bits<2>>,
-    end_base: Signal<Local, Bits<2>>,
-    first_slot: Signal<Local, Slot>,
-    second_slot: Signal<Local, Slot>,
-    apex_id: Signal<Local, TriangleId>,
 }
 
 impl Logic for HoleWriter {
@@ -91,10 +79,6 @@ impl Logic for HoleWriter {
         self.none.next = 0.into();
         self.valid_shift.next = 1.into();
         self.valid_one.next = 1.into();
-        self.ring_base.next = 0.into();
-        self.end_base.next = 1.into();
-        self.first_slot.next = 0.into();
-        self.second_slot.next = 1.into();
 
         self.came.next = self.job.val().job;
         self.came_bits.next = self.came.val().into();
@@ -141,44 +125,13 @@ impl Logic for HoleWriter {
         self.reader.next = self.taken.val().context;
         self.word_m.d.next = self.word.val();
         self.word_i.d.next = self.word_m.q.val();
-        self.edge_j.next = self.word.val();
 
         self.at_work.next = self.job4.q.val();
-        self.apex_id.next = self.word_m.q.val().record;
-        self.is_ring_base.next = self.at_work.val().base == self.ring_base.val();
-        self.is_end_base.next = self.at_work.val().base == self.end_base.val();
-        self.record.id.next = self.apex_id.val();
-        self.record.v0.next = self.edge_j.val().vertex;
-        self.record.v1.next = self.word_i.q.val().vertex;
-        self.record.v2.next = self.word_m.q.val().vertex;
-        self.record.n0.next = self.word_i.q.val().outside;
-        self.record.n1.next = self.word_m.q.val().outside;
-        self.record.n2.next = self.word_i.q.val().record;
-        self.link.id.next = self.word_i.q.val().record;
-        self.link.slot.next = self.second_slot.val();
-        if self.is_end_base.val() {
-            self.record.n2.next = self.edge_j.val().record;
-            self.link.id.next = self.edge_j.val().record;
-            self.link.slot.next = self.first_slot.val();
-        }
-        if self.is_ring_base.val() {
-            self.record.n2.next = self.edge_j.val().outside;
-            self.link.id.next = self.edge_j.val().outside;
-            self.link.slot.next = self.edge_j.val().slot;
-        }
-        self.link.value.next = self.apex_id.val();
-        self.side.id.next = self.word_i.q.val().outside;
-        self.side.slot.next = self.word_i.q.val().slot;
-        self.side.value.next = self.apex_id.val();
-        if self.at_work.val().ends {
-            self.record.id.next = self.word_i.q.val().record;
-            self.record.v0.next = self.infinite.val();
-            self.record.v1.next = self.infinite.val();
-            self.record.v2.next = self.infinite.val();
-            self.record.n0.next = self.apex_id.val();
-            self.record.n1.next = self.apex_id.val();
-            self.record.n2.next = self.apex_id.val();
-        }
+        self.records.infinite.next = self.infinite.val();
+        self.records.job.next = self.at_work.val();
+        self.records.edge_i.next = self.word_i.q.val();
+        self.records.edge_m.next = self.word_m.q.val();
+        self.records.edge_j.next = self.word.val();
 
         self.request.d.next.valid = false;
         if self.valid.q.val().get_bit(6) {
@@ -188,15 +141,9 @@ impl Logic for HoleWriter {
             self.request.d.next = self.base_link.q.val();
         }
         if self.valid.q.val().get_bit(4) {
-            self.request.d.next = self.record.write.val();
-            self.base_link.d.next = self.link.write.val();
-            self.mend.d.next = self.side.write.val();
-            self.mend.d.next.valid = self.at_work.val().mends;
-            if self.at_work.val().ends {
-                self.base_link.d.next = self.record.write.val();
-                self.base_link.d.next.id = self.edge_j.val().record;
-                self.mend.d.next.valid = false;
-            }
+            self.request.d.next = self.records.first.val();
+            self.base_link.d.next = self.records.second.val();
+            self.mend.d.next = self.records.third.val();
         }
         self.write.next = self.request.q.val();
         self.ended.next.context = self.job5.q.val().context;

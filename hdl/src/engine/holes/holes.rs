@@ -1,8 +1,9 @@
 //! The deletions of a run: from the root of a star to the mark of the last free record.
 //!
 //! ```text
-//! completed visits -> StarCase, NamedVertex -> StarStep -> StarVisits -> visits, entries, locks
-//!                                                |  ^         ^
+//! completed visits -> StarCase, NamedVertex -> StarStep -> StarVisits -> visits
+//!                                                |  ^ |       ^
+//!                                                |  | +-> StarOutcome -> entries, locks, releases
 //!                                                v  StarStore | tests
 //!                                             HoleStep -------+
 //!                                                |
@@ -28,12 +29,14 @@ use super::hole_step::HoleStep;
 use super::hole_writer::HoleWriter;
 use super::named_vertex::NamedVertex;
 use super::star_case::StarCase;
+use super::star_outcome::StarOutcome;
 use super::star_step::StarStep;
 use super::star_store::StarStore;
 use super::star_visits::StarVisits;
+use super::test_visit::TestVisit;
 use crate::engine::types::{
-    Bundle, Committed, Completion, Entry, FillEnd, Follow, Hole, HoleOf, KeptWrite, LockWrite, Outcome, ReleaseJob,
-    ReleaseRequest, RingCount, Star, Start, TestVertices, Turned, Upcoming, VertexId, Visit, Write,
+    Bundle, Committed, Completion, FillEnd, Follow, KeptWrite, LockWrite, Outcome, ReleaseRequest, RingCount, Start,
+    TestVertices, Turned, Upcoming, VertexId, Visit, Write,
 };
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -84,6 +87,8 @@ pub struct Holes {
     store: StarStore,
     step: StarStep,
     visits: StarVisits,
+    effects: StarOutcome,
+    first_test: TestVisit,
     hole: HoleStep,
     fill: HoleFill,
     ring: HoleRing,
@@ -91,16 +96,8 @@ pub struct Holes {
     early_visit: Signal<Local, Visit>,
     visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
-    held: Signal<Local, Star>,
-    star_after: Signal<Local, Star>,
     opens: Signal<Local, Bit>,
     names_it: Signal<Local, Bit>,
-    entry: Signal<Local, Entry>,
-    locks: Signal<Local, ReleaseJob>,
-    asked: Signal<Local, HoleOf>,
-    tested: Signal<Local, Hole>,
-    bundle: Signal<Local, Bundle>,
-    ends_item: Signal<Local, Bit>,
 }
 
 impl Holes {
@@ -140,7 +137,6 @@ impl Logic for Holes {
 
         self.store.early_visit.next = self.early_visit.val();
         self.store.visit.next = self.visit.val();
-        self.held.next = self.store.held.val();
         self.step.visit.next = self.visit.val();
         self.step.turned.next = self.turned.val();
         self.step.is_star.next = self.kind.is_star.val();
@@ -148,24 +144,12 @@ impl Logic for Holes {
         self.step.is_foreign.next = self.kind.is_foreign.val();
         self.step.is_awaited.next = self.kind.is_awaited.val();
         self.step.ring_capacity.next = self.ring_capacity.val();
-        self.step.held.next = self.held.val();
-        self.star_after.next = self.step.after.val();
-        if self.opens.val() {
-            self.star_after.next.left_head = self.visits.left.val();
-            self.star_after.next.right_head = self.visits.right.val();
-            self.star_after.next.first = 0.into();
-            self.star_after.next.last = 0.into();
-            self.star_after.next.has_infinite = false;
-            self.star_after.next.infinite = 0.into();
-            self.star_after.next.has_triangle = false;
-            self.star_after.next.drains = false;
-            self.star_after.next.is_too_long = false;
-            self.star_after.next.outstanding = 3.into();
-            self.star_after.next.count = 3.into();
-            self.star_after.next.logged = 1.into();
-        }
-        self.store.changes.next = self.kind.is_star.val() | self.opens.val();
-        self.store.after.next = self.star_after.val();
+        self.step.held.next = self.store.held.val();
+        self.store.opens.next = self.opens.val();
+        self.store.left.next = self.visits.left.val();
+        self.store.right.next = self.visits.right.val();
+        self.store.changes.next = self.kind.is_star.val();
+        self.store.after.next = self.step.after.val();
 
         self.hole.early_visit.next = self.early_visit.val();
         self.hole.visit.next = self.visit.val();
@@ -184,9 +168,8 @@ impl Logic for Holes {
         self.fill.is_full.next = self.writer.is_full.val();
         self.writer.job.next = self.fill.job.val();
         self.ending.next = self.fill.ending.val();
-        self.asked.next = self.fill.hole.val();
         self.hole.stores.next = self.fill.asks.val() & self.pushes.val();
-        self.hole.stored.next = self.asked.val();
+        self.hole.stored.next = self.fill.hole.val();
 
         self.visits.visit.next = self.visit.val();
         self.visits.turned.next = self.turned.val();
@@ -205,34 +188,24 @@ impl Logic for Holes {
         self.follow.next.may_ask = self.kind.may_ask.val() | self.opens.val();
         self.follow.next.bundle = self.visits.bundle.val();
 
-        // The test that the fill asks for is the first one of an interval.
-        self.tested.next = self.asked.val().hole;
-        self.bundle.next.is_pair = false;
-        self.bundle.next.is_triple = false;
-        self.bundle.next.context = self.asked.val().context;
-        self.bundle.next.rotates = true;
-        self.bundle.next.locks = false;
-        self.bundle.next.entry = self.tested.val().i;
-        self.bundle.next.after = self.tested.val().j;
-        self.bundle.next.cavity_entry = self.tested.val().best;
-        self.bundle.next.cavity_record = bit_cast::<15, 6>(self.tested.val().challenger);
-        self.bundle.next.record = 0.into();
-        self.bundle.next.second_after = 0.into();
-        self.bundle.next.second_record = 0.into();
-        self.bundle.next.third_record = 0.into();
+        self.first_test.asked.next = self.fill.hole.val();
         self.push_valid.next = self.fill.asks.val();
-        self.push.next = self.bundle.val();
+        self.push.next = self.first_test.bundle.val();
 
-        // M3: the record outside, which is locked, becomes an entry of the ring.
-        self.entry.next.first_vertex = self.turned.val().v2;
-        self.entry.next.outside_record = self.visit.val().record;
-        self.entry.next.slot = self.turned.val().slot;
-        self.entry.next.cavity_record = self.visit.val().cavity_record;
-        self.entry.next.after = 0.into();
-        self.ring.entry.next.valid = self.step.settles.val();
-        self.ring.entry.next.context = self.visit.val().context;
-        self.ring.entry.next.place = self.visit.val().entry;
-        self.ring.entry.next.entry = self.entry.val();
+        self.effects.visit.next = self.visit.val();
+        self.effects.turned.next = self.turned.val();
+        self.effects.is_star.next = self.kind.is_star.val();
+        self.effects.held.next = self.store.held.val();
+        self.effects.after.next = self.step.after.val();
+        self.effects.settles.next = self.step.settles.val();
+        self.effects.revisits.next = self.step.revisits.val();
+        self.effects.aborts.next = self.step.aborts.val();
+        self.effects.fails.next = self.step.fails.val();
+        self.ring.entry.next = self.effects.entry.val();
+        self.lock.next = self.effects.lock.val();
+        self.releases.next = self.effects.releases.val();
+        self.outcome.next = self.effects.outcome.val();
+
         self.ring.visit.next = self.issued.val();
         self.vertices.next = self.ring.vertices.val();
         self.ring.reader.next = self.writer.reader.val();
@@ -242,26 +215,5 @@ impl Logic for Holes {
         self.write.next = self.writer.write.val();
         self.erased.next = self.writer.erased.val();
         self.kept.next = self.writer.kept.val();
-
-        self.lock.next.valid = self.kind.is_star.val() & self.turned.val().took;
-        self.lock.next.context = self.visit.val().context;
-        self.lock.next.place = self.held.val().logged;
-        self.lock.next.id = self.visit.val().record;
-        self.locks.next.context = self.visit.val().context;
-        self.locks.next.locks = self.step.after.val().logged;
-        self.releases.next.valid = self.step.fails.val();
-        self.releases.next.job = self.locks.val();
-        self.ends_item.next = self.step.fails.val() & self.step.after.val().is_too_long;
-        self.outcome.next.context = self.visit.val().context;
-        self.outcome.next.sleeps = self.step.fails.val();
-        self.outcome.next.will_retry = self.step.fails.val() & (!self.ends_item.val());
-        self.outcome.next.hands_over = self.step.fails.val();
-        self.outcome.next.asks_for_priority = self.step.aborts.val();
-        self.outcome.next.waits = self.step.revisits.val();
-        self.outcome.next.returns_priority = self.ends_item.val();
-        self.outcome.next.overflows = false;
-        self.outcome.next.duplicate = self.ends_item.val();
-        self.outcome.next.root_enable = false;
-        self.outcome.next.root = 0.into();
     }
 }

@@ -2,10 +2,11 @@
 //! changes in the same clock.
 //!
 //! 1. A visit sees the effects of all visits before it, also of one in the clock before.
+//! 2. A root that opens a star begins a new one: with three visits in flight, three records, and the lock of the root.
 //!
 //! Latency: 1 clock from `early_visit` to `held`.
 
-use crate::engine::types::{context_bits, Star, Visit, CONTEXT_BITS, STAR_BITS};
+use crate::engine::types::{context_bits, Star, TriangleId, Visit, CONTEXT_BITS, STAR_BITS};
 use crate::leaf::{LutMemory, Unpack};
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -20,10 +21,16 @@ pub struct StarStore {
     pub held: Signal<Out, Star>,
     pub changes: Signal<In, Bit>,
     pub after: Signal<In, Star>,
+    /// The visit is a root that opens a star, and the first records of the chains to the left and to the right.
+    pub opens: Signal<In, Bit>,
+    pub left: Signal<In, TriangleId>,
+    pub right: Signal<In, TriangleId>,
     stars: LutMemory<CONTEXT_BITS, STAR_BITS>,
     stored: Unpack<Star, STAR_BITS>,
     written: Signal<Local, Bits<STAR_BITS>>,
     state: DFF<Star>,
+    new_state: Signal<Local, Star>,
+    is_written: Signal<Local, Bit>,
     goes_round: Signal<Local, Bit>,
 }
 
@@ -39,16 +46,32 @@ impl Logic for StarStore {
         dff_setup!(self, clock, state);
         clock!(self, clock, stars);
         self.held.next = self.state.q.val();
-        self.written.next = self.after.val().into();
+        self.new_state.next = self.after.val();
+        if self.opens.val() {
+            self.new_state.next.left_head = self.left.val();
+            self.new_state.next.right_head = self.right.val();
+            self.new_state.next.first = 0.into();
+            self.new_state.next.last = 0.into();
+            self.new_state.next.has_infinite = false;
+            self.new_state.next.infinite = 0.into();
+            self.new_state.next.has_triangle = false;
+            self.new_state.next.drains = false;
+            self.new_state.next.is_too_long = false;
+            self.new_state.next.outstanding = 3.into();
+            self.new_state.next.count = 3.into();
+            self.new_state.next.logged = 1.into();
+        }
+        self.is_written.next = self.changes.val() | self.opens.val();
+        self.written.next = self.new_state.val().into();
         self.stars.write_address.next = self.visit.val().context;
         self.stars.write_data.next = self.written.val();
-        self.stars.write_enable.next = self.changes.val();
+        self.stars.write_enable.next = self.is_written.val();
         self.stars.read_address.next = self.early_visit.val().context;
         self.stored.bits.next = self.stars.read_data.val();
-        self.goes_round.next = self.changes.val() & (self.early_visit.val().context == self.visit.val().context);
+        self.goes_round.next = self.is_written.val() & (self.early_visit.val().context == self.visit.val().context);
         self.state.d.next = self.stored.value.val();
         if self.goes_round.val() {
-            self.state.d.next = self.after.val();
+            self.state.d.next = self.new_state.val();
         }
     }
 }

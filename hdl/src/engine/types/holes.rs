@@ -52,7 +52,8 @@ crate::packed! {
         pub end: RingEntry,
         pub first: RingEntry,
         pub last: RingEntry,
-        /// Number of intervals that wait.
+        /// Number of intervals that wait, at most 14. Each has a vertex of its own between its ends, and begins at an
+        /// apex of its own. The interval at work has a vertex, too, and a ring of 32 has 30 between its ends.
         pub depth: Bits<4>,
         /// Nothing may be written, because perhaps no triangle is left.
         pub is_dry: bool,

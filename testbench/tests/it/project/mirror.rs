@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 65] = [
+const ELSEWHERE: [(&str, &str, &str); 68] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -30,19 +30,20 @@ const ELSEWHERE: [(&str, &str, &str); 65] = [
     ("engine/dispatch/fill_priority", "cores/changes", "the priority in a core with deletions, at every clock"),
     ("engine/dispatch/open_teams", "blocks/engine/dispatch/starter", "a table that only the starter asks"),
     ("engine/dispatch/start_pointer", "blocks/engine/dispatch/starter", "the pointer that only the starter follows"),
-    ("engine/holes/hole_fill", "cores/changes", "the intervals of holes, at every clock"),
     ("engine/holes/hole_merge", "cores/changes", "wires between holes and attempts"),
     ("engine/holes/hole_ring", "cores/changes", "the memory behind tests and writer"),
     ("engine/holes/hole_step", "cores/changes", "the apexes of triangles in holes, at every clock"),
     ("engine/holes/hole_writer", "cores/changes", "the records that fill holes, at every clock"),
     ("engine/holes/holes", "cores/changes", "wires between the blocks of the room"),
     ("engine/holes/named_vertex", "cores/changes", "the ends of walks to vertices, at every clock"),
-    ("engine/holes/next_interval", "cores/changes", "the order of intervals of holes, at every clock"),
+    ("engine/holes/next_interval", "blocks/engine/holes/hole_fill", "the order of intervals, at the ports of the fill"),
     ("engine/holes/next_place", "cores/changes", "one line, the order of places in a ring"),
     ("engine/holes/star_case", "cores/changes", "the kinds of visits of stars, at every clock"),
+    ("engine/holes/star_outcome", "cores/changes", "the consequences of visits of stars, at every clock"),
     ("engine/holes/star_step", "cores/changes", "the chains round stars, at every clock"),
     ("engine/holes/star_store", "cores/changes", "the memory of stars"),
     ("engine/holes/star_visits", "cores/changes", "the visits of stars, at every clock"),
+    ("engine/holes/test_visit", "cores/changes", "the first test of each interval, at every clock"),
     ("engine/insertion_engine", "cores/lockstep", "wires between the rooms"),
     ("engine/insertions", "cores/lockstep", "wires between the rooms"),
     ("engine/solo/solo_star", "blocks/engine/solo/solo", "a part of solo that only solo's states drive"),
@@ -57,6 +58,7 @@ const ELSEWHERE: [(&str, &str, &str); 65] = [
     ("leaf/spill_ring", "blocks/leaf/deep_fifo", "the memory behind the deep buffer"),
     ("leaf/unpack", "blocks/engine/visit/issue", "the fields of a structure as wires, in most blocks"),
     ("living/changes", "cores/changes", "wires between check, ends and late points"),
+    ("living/checked_item", "blocks/living/vertex_check", "the item that the check offers"),
     (
         "living/item_dealer",
         "blocks/living/run_port",
@@ -66,6 +68,7 @@ const ELSEWHERE: [(&str, &str, &str); 65] = [
     ("living/part_beat", "blocks/living/part_queue", "the words of each part, two at a time"),
     ("living/queue_counts", "blocks/living/item_queues", "the counts of the queues, which alone use them"),
     ("living/run_answer", "blocks/living/run_port", "the head of every answer, also of a run that is refused"),
+    ("living/vertex_bits", "blocks/living/vertex_check", "the bits that the check alone reads and writes"),
     ("predicate/apex_side", "cores/changes", "one sign, on which tests in holes depend"),
     ("serial/link_receiver", "blocks/serial/serial_link", "the receiving half of the link, at its pins"),
     ("serial/link_transmitter", "blocks/serial/serial_link", "the sending half of the link, at its pins"),

@@ -9,10 +9,10 @@ use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
     Attempt, Beyond, Bundle, Case, ChangeEvents, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal,
-    Entry, EntryWrite, Events, Follow, Following, Held, InnerWrite, LockClear, LockWrite, NearVerdict, Outcome, Passed,
-    Plan, PlanWrite, Planned, Pointer, Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead,
-    SeedProgress, SoloPhase, SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict,
-    Visit, VisitEvents, Write, WriteEnables,
+    Entry, EntryWrite, Events, FillEnd, FillJob, FillRequest, Follow, Following, Held, HoleCame, HoleOf, InnerWrite,
+    LockClear, LockWrite, NearVerdict, Outcome, Passed, Plan, PlanWrite, Planned, Pointer, Position, Push, RecordRead,
+    ReleaseJob, ReleaseRequest, Released, RingHead, RingWord, SeedProgress, SoloPhase, SoloProgress, SoloStart,
+    SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write, WriteEnables,
 };
 use incircle_hdl::ethernet::types::{DatagramState, HeadByte, HeaderRow, Kinds, OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
@@ -126,6 +126,12 @@ macro_rules! packed_values {
 }
 packed_values!(
     ChangeEvents,
+    FillEnd,
+    FillJob,
+    FillRequest,
+    RingWord,
+    HoleCame,
+    HoleOf,
     EngineFlags,
     OfferedBeat,
     RoutedWord,

@@ -4,6 +4,7 @@ mod attempt;
 mod commit;
 mod count;
 mod dispatch;
+mod holes;
 mod seed;
 mod solo;
 mod visit;

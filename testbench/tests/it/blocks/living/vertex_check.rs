@@ -1,6 +1,6 @@
 //! Runs `VertexCheck` in Rust and in Verilog beside a set of vertices in use: each item must have the outcome that the
-//! set says, whatever comes into use and falls out of use meanwhile. A vertex that is deleted keeps ids from then on, and
-//! its item has its point.
+//! set says, whatever comes into use and falls out of use meanwhile. A vertex that is deleted keeps ids from then on,
+//! and its item has its point.
 
 use std::collections::BTreeSet;
 
@@ -27,7 +27,7 @@ struct Rig {
     random: SplitMix64,
     in_use: BTreeSet<u64>,
     /// The vertices for which ids are kept.
-    owners: BTreeSet<u64>,
+    keepers: BTreeSet<u64>,
     arrived: u64,
     /// The vertices whose points come in the next two clocks.
     fetched: [u64; 2],
@@ -72,7 +72,7 @@ impl Rig {
         self.edge(None);
         self.block.set("clears", false);
         self.in_use = BTreeSet::from([0, 1]);
-        self.owners.clear();
+        self.keepers.clear();
         for _ in 0..2 {
             self.edge(None);
         }
@@ -114,7 +114,7 @@ impl Rig {
             if is_change && is_offered {
                 self.block.expect("offered_item_vertex", vertex);
                 if !is_delete {
-                    self.block.expect("offered_item_owns", self.owners.contains(&vertex));
+                    self.block.expect("offered_item_owns", self.keepers.contains(&vertex));
                 }
             }
             if is_delete && is_offered {
@@ -139,8 +139,8 @@ impl Rig {
 fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
     let block = Stepper::new("living_vertex_check", VertexCheck::new(TINY), 1);
     let random = SplitMix64::new(82);
-    let (in_use, owners) = (BTreeSet::new(), BTreeSet::new());
-    let mut rig = Rig { block, random, in_use, owners, arrived: 0, fetched: [0; 2] };
+    let (in_use, keepers) = (BTreeSet::new(), BTreeSet::new());
+    let mut rig = Rig { block, random, in_use, keepers, arrived: 0, fetched: [0; 2] };
     for port in ["clears", "dealt_valid", "is_change", "is_delete", "accepted", "is_noted", "disowns"] {
         rig.block.set(port, false);
     }
@@ -173,7 +173,7 @@ fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
             assert_eq!(rig.bring(vertex, is_change, is_delete), wanted, "vertex {vertex}, in use {:?}", rig.in_use);
             if is_delete && wanted.is_none() {
                 rig.in_use.remove(&vertex);
-                rig.owners.insert(vertex);
+                rig.keepers.insert(vertex);
             } else if is_change && wanted.is_none() {
                 rig.in_use.insert(vertex);
             }
