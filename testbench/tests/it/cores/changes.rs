@@ -121,8 +121,8 @@ impl Rig {
         Ok(())
     }
 
-    /// A `Delete` of these vertices. The model by commands deletes those of which the parts say so, and then refuses all
-    /// others for the same reason.
+    /// A `Delete` of these vertices. The model by commands deletes those of which the parts say so, and then refuses
+    /// all others for the same reason.
     fn delete(&mut self, vertices: &[u32]) -> Result<(), Box<Mismatch>> {
         let run = |vertices: &[u32]| [&[command_word(Opcode::Delete), vertices.len() as u32], vertices].concat();
         let length = 2 + if self.stands { 2 * vertices.len() } else { 0 };
@@ -141,11 +141,14 @@ impl Rig {
         let done: Vec<u32> = items().filter(|(_, part)| is(part, Outcome::Done)).map(|(vertex, _)| vertex).collect();
         let expected = self.expected(&run(&done));
         assert!(expected[2..].chunks(2).all(|part| is(part, Outcome::Done)), "vertices that were deleted can be");
-        for (vertex, part) in items().filter(|(_, part)| !is(part, Outcome::Done) && !is(part, Outcome::ManyNeighbors))
-        {
-            let is_alone = vertices.iter().filter(|&&other| other == vertex).count() == 1;
-            let expected = self.expected(&run(&[vertex]));
-            assert!(!is_alone || outcome(&expected[2..]) == outcome(part), "{vertex}: {part:x?}, not {expected:x?}");
+        // A vertex that is named twice may be missing for one item while the other finds that it cannot be deleted. The
+        // model by commands has a longer list, and would delete it.
+        let is_alone = |vertex: u32| vertices.iter().filter(|&&other| other == vertex).count() == 1;
+        for (vertex, part) in items().filter(|&(vertex, _)| is_alone(vertex)) {
+            if !is(part, Outcome::Done) && !is(part, Outcome::ManyNeighbors) {
+                let expected = self.expected(&run(&[vertex]));
+                assert_eq!(outcome(&expected[2..]), outcome(part), "{vertex}: {part:x?}, not {expected:x?}");
+            }
         }
         Ok(())
     }
@@ -314,9 +317,13 @@ fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, items
         seen.iter_mut().zip(std::mem::take(&mut rig.seen)).for_each(|(sum, count)| *sum += count);
     }
     println!("{name}: outcomes {seen:?}");
-    for outcome in [Outcome::Done, Outcome::Duplicate, Outcome::Missing, Outcome::InUse, Outcome::Full, Outcome::Flat] {
+    for outcome in [Outcome::Done, Outcome::Duplicate, Outcome::Missing, Outcome::InUse, Outcome::Full] {
         assert!(seen[outcome as usize] > scripts / 20, "{outcome:?} comes up: {seen:?}");
     }
+    // Only meshes of a few points have a vertex without which all others lie on one line.
+    assert!(seen[Outcome::Flat as usize] > scripts / 50, "vertices that must stay: {seen:?}");
+    let refuses_many = config.ring < 10 && config.points > 10;
+    assert!(!refuses_many || seen[Outcome::ManyNeighbors as usize] > scripts / 50, "long rings: {seen:?}");
     assert!(seen[15] > scripts / 50, "runs with a vertex or a place twice: {seen:?}");
 }
 
