@@ -103,7 +103,8 @@ impl core::fmt::Display for ConfigError {
                 write!(f, "a core that answers questions cannot have {given} engines: choose a configuration of one")
             }
             Self::RingForDeletions(given) => {
-                write!(f, "a core with deletions cannot have a boundary list of {given} edges: choose a number from {MIN_RING} to {MAX_DELETE_RING}")
+                write!(f, "a core with deletions cannot have a boundary list of {given} edges: ")?;
+                write!(f, "choose a number from {MIN_RING} to {MAX_DELETE_RING}")
             }
         }
     }

@@ -7,7 +7,8 @@
 //!    vertex whose point turns out to be that of another one is no longer in use (`unmarks`).
 //! 3. Bits from `known` on are arbitrary. If an item has a higher vertex, the bits up to it are cleared first, one a
 //!    clock. All ids that have come with an `Insert` are known.
-//! 4. At most one of `marks` and `unmarks` is high. It has the write port of the bits first, and the item waits a clock.
+//! 4. At most one of `marks` and `unmarks` is high. It has the write port of the bits first, and the item waits a
+//!    clock.
 //! 5. Items of a question go through without a look.
 //! 6. A vertex to delete is refused with the outcome `Missing` if it is not in use. Otherwise it is not in use from
 //!    then on, and owns ids that are kept for it. Its point is fetched and becomes the place of the item.

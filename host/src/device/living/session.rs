@@ -45,8 +45,8 @@ pub(super) enum Held {
 /// - **Many neighbours.** A device refuses to delete or move a vertex with more neighbours than its list holds, 32 in
 ///   the standard cores and the model. The next question, or a call of [`mesh`](LivingMesh::mesh), then makes the mesh
 ///   on the device anew. That takes O(n), once for all changes since the mesh before.
-/// - **No deletions.** The core of the hardware has no commands yet that delete or move a vertex. There every deletion
-///   and every move is made like that of a vertex with many neighbours.
+/// - **No moves.** The core of the hardware has no command yet that moves a vertex. There every move is made like that
+///   of a vertex with many neighbours.
 /// - **Memory.** The device holds as many different places as its capacity. [`Error::MemoryFull`] says that there is no
 ///   room, and leaves the mesh as it was.
 /// - **Faults.** After an error of the link or a wrong answer, the mesh on the device is not known, and all further
