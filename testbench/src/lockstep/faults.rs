@@ -396,7 +396,14 @@ pub const CHANGE_FAULTS: &[Fault] = &[
             "valid$q[32'h0] & job0$q[(64'h1a)+:(1)]",
         )],
     },
-    Fault { name: "free_records_are_not_known", pieces: &[piece("is_free = @;", "named$is_free", "1'b0")] },
+    Fault {
+        name: "free_records_lead_nowhere",
+        pieces: &[
+            piece("record$n0 = @;", "apex_id", "record$id"),
+            piece("record$n1 = @;", "apex_id", "record$id"),
+            piece("record$n2 = @;", "apex_id", "record$id"),
+        ],
+    },
     Fault { name: "chains_do_not_meet", pieces: &[piece("meets = @;", "next_record == other_head", "1'b0")] },
     Fault {
         name: "best_apex_is_always_left",

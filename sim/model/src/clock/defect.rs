@@ -43,6 +43,6 @@ pub enum Defect {
     TrustsTheWalkToAVertex,
     /// M3: the records outside a star are read without their locks.
     LeavesTheRingOpen,
-    /// M8: a walk takes a free record for a triangle.
-    WalksOnFreeRecords,
+    /// M8: a free record gets no mark and no link, and keeps the triangle that it was.
+    LeavesFreeRecordsUnmarked,
 }

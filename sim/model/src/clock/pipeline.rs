@@ -128,7 +128,7 @@ fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, d
     let turn = sides[2].signum() as i32;
     let again = is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written;
     // M8: all three vertices of a free record are infinite.
-    let is_free = infinite == [true; 3] && defect != Some(Defect::WalksOnFreeRecords);
+    let is_free = infinite == [true; 3];
     let names = stored.v.iter().position(|&v| v == memory.point_id[visit.context]);
     let replaces = wires.deletes && visit.rotates && !visit.locks && replaces(&visit, memory);
     Completion {

@@ -1,6 +1,7 @@
 //! Runs on the core: the living engine works while the insertion engine rests, and has the memories and both channels.
 
 use super::command_port::State as CommandState;
+use super::defect::Defect;
 use super::holes::Holes;
 use super::living::{LivingDefect, LivingEngine, RunCounts, Signals, Signature, Standing};
 use super::memory::Write;
@@ -70,6 +71,10 @@ impl ClockModel {
                 &mut self.memory,
             );
             now.filled = holes.write();
+            let is_mark = now.filled.vertices && now.filled.record.v == [wires.infinite; 3];
+            if is_mark && self.defect == Some(Defect::LeavesFreeRecordsUnmarked) {
+                now.filled.valid = false;
+            }
         }
         if was.command.clears {
             (now.deleted, now.kept) = (0, 0);

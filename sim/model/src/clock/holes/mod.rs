@@ -1,7 +1,10 @@
 //! Deletions, clock by clock: the star of a vertex is locked and its ring collected, the hole is filled by gift
 //! wrapping, and the records that fill it are written.
 //!
-//! Hardware twin: the blocks of `hdl/src/living/holes/`. In a run of `Delete` every visit is one of a deletion.
+//! A free record has the infinite vertex three times. So its corners are one point, and it conflicts with no point: a
+//! walk that comes to it goes on by its link.
+//!
+//! Hardware twin: the blocks of `hdl/src/engine/holes/`. In a run of `Delete` every visit is one of a deletion.
 //!
 //! ```text
 //! completed visits -> star: chains, records outside -> ring -+

@@ -38,10 +38,9 @@ fn symptom(seed: u32, defect: Defect) -> Option<Symptom> {
     }
 }
 
-/// Looks for the first script that a core without this rule does wrong.
-fn expect(defect: Defect) {
-    const MOST: u32 = 600;
-    for seed in 0..MOST {
+/// Looks for the first of so many scripts that a core without this rule does wrong.
+fn expect(defect: Defect, most: u32) {
+    for seed in 0..most {
         if let Some(found) = symptom(seed, defect) {
             if let Err(fault) = run(seed, None) {
                 panic!("the complete core, script {seed}: {fault:?}");
@@ -50,59 +49,60 @@ fn expect(defect: Defect) {
             return;
         }
     }
-    panic!("{defect:?} does not show in {MOST} scripts");
+    panic!("{defect:?} does not show in {most} scripts");
 }
 
 /// M1: otherwise an attempt works on lists and locks that the change before still needs.
 #[test]
 fn roots_wait_for_the_last_locks() {
-    expect(Defect::OpensWhileBusy);
+    // A walk to the next vertex is seldom over before the locks of the last deletion are released.
+    expect(Defect::OpensWhileBusy, 10_000);
 }
 
 /// M2: otherwise a record that has changed since the walk becomes the root of a star.
 #[test]
 fn roots_of_stars_are_looked_at_under_their_lock() {
-    expect(Defect::TrustsTheWalkToAVertex);
+    expect(Defect::TrustsTheWalkToAVertex, 600);
 }
 
 /// M3: otherwise two stars on both sides of an edge are filled at once.
 #[test]
 fn the_ring_of_a_star_is_locked() {
-    expect(Defect::LeavesTheRingOpen);
+    expect(Defect::LeavesTheRingOpen, 600);
 }
 
 /// M4: otherwise two attempts write the same records.
 #[test]
 fn foreign_locks_count() {
-    expect(Defect::IgnoresForeignLocks);
+    expect(Defect::IgnoresForeignLocks, 600);
 }
 
 /// M4: otherwise a visit that is in flight takes a lock after the release.
 #[test]
 fn attempts_drain_before_they_release() {
-    expect(Defect::ReleasesBeforeDrained);
+    expect(Defect::ReleasesBeforeDrained, 600);
 }
 
 /// M5: otherwise contexts abort each other for ever.
 #[test]
 fn somebody_waits() {
-    expect(Defect::NobodyTakesPriority);
+    expect(Defect::NobodyTakesPriority, 600);
 }
 
 /// M6: otherwise another attempt begins on records that are still to be written.
 #[test]
 fn locks_are_released_after_the_last_write() {
-    expect(Defect::ReleasesBeforeWritten);
+    expect(Defect::ReleasesBeforeWritten, 600);
 }
 
 /// M7: otherwise a context waits for itself, because a record can be outside two edges of one star.
 #[test]
 fn locks_name_their_holders() {
-    expect(Defect::TakesOwnForForeign);
+    expect(Defect::TakesOwnForForeign, 600);
 }
 
-/// M8: otherwise a walk ends in a record that is no triangle any more.
+/// M8: otherwise a walk ends in a record that is no triangle of the mesh any more.
 #[test]
-fn walks_leave_free_records() {
-    expect(Defect::WalksOnFreeRecords);
+fn free_records_are_marked() {
+    expect(Defect::LeavesFreeRecordsUnmarked, 600);
 }
