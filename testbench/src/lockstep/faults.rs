@@ -405,10 +405,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         ],
     },
     Fault { name: "chains_do_not_meet", pieces: &[piece("meets = @;", "next_record == other_head", "1'b0")] },
-    Fault {
-        name: "best_apex_is_always_left",
-        pieces: &[piece("(verdict[(64'h0)+:(1)] | (@))", "~best_is_left", "1'b0")],
-    },
+    Fault { name: "apex_is_not_replaced", pieces: &[piece("(@ | (~best_is_left))", "verdict[(64'h0)+:(1)]", "1'b0")] },
     Fault {
         name: "flat_holes_are_filled",
         pieces: &[piece("restarts = @;", "hole[(64'h31)+:(1)] & has_left", "1'b0")],
