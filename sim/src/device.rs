@@ -198,9 +198,7 @@ impl SimDevice {
     /// [`SimError::NotTraced`]: the device was not made by [`SimDevice::traced`]. [`SimError::Trace`]: the file cannot be
     /// created. If the disk fills later, `send` and `receive` return the error.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
-        if !self.model.description().can_trace() {
-            return Err(SimError::NotTraced { name: self.model.description().name() });
-        }
+        self.check_traced()?;
         Ok(self.model.trace_to(path)?)
     }
 
@@ -212,9 +210,7 @@ impl SimDevice {
     /// [`SimError::NotTraced`]: the device was not made by [`SimDevice::traced`]. [`SimError::NoJob`]: the number is 0.
     /// If the file cannot be written, `send` and `receive` return the error.
     pub fn trace_job(&mut self, path: impl AsRef<Path>, number: u64) -> Result<(), SimError> {
-        if !self.model.description().can_trace() {
-            return Err(SimError::NotTraced { name: self.model.description().name() });
-        }
+        self.check_traced()?;
         if number == 0 {
             return Err(SimError::NoJob);
         }
@@ -222,6 +218,11 @@ impl SimDevice {
         let watch = JobWatch::new(number, Layout::of(CORE_COORD_BITS, 1));
         self.job_trace = Some(JobTrace { path: path.as_ref().to_owned(), watch, fault: None });
         Ok(())
+    }
+
+    fn check_traced(&self) -> Result<(), SimError> {
+        let model = self.model.description();
+        model.can_trace().then_some(()).ok_or(SimError::NotTraced { name: model.name() })
     }
 
     /// Begins and ends the waveform of the chosen job, when the core takes the offered word.

@@ -1,7 +1,8 @@
 //! The two streams against a device that echoes, and the first words of every core.
 
 use incircle_protocol::{
-    answer_header, command_word, Config, Identity, Opcode, Status, CORE_COORD_BITS, IDENTITY_WORDS, MAGIC, NAMED, SMALL,
+    answer_header, command_word, Config, Identity, Opcode, Status, CORE_COORD_BITS, IDENTITY_WORDS, MAGIC, NAMED,
+    SMALL, TINY,
 };
 
 use crate::{models, Awaited, SimDevice, SimError};
@@ -163,6 +164,19 @@ fn a_full_disk_ends_a_waveform_with_an_error() {
     device.trace_to("/dev/full").unwrap();
     let error = device.send(&[1, 2, 3], 100).unwrap_err();
     assert!(matches!(error, SimError::Trace(_)) && error.to_string().contains("make room on the disk"), "{error}");
+}
+
+#[test]
+fn a_waveform_of_a_job_needs_a_traced_core_a_job_and_a_file() {
+    let path = std::env::temp_dir().join(format!("incircle-sim-{}-missing", std::process::id())).join("job.vcd");
+    let error = SimDevice::new(TINY).unwrap().trace_job(&path, 1).unwrap_err();
+    assert!(matches!(error, SimError::NotTraced { name: "core_tiny" }), "{error}");
+    let mut device = SimDevice::traced(TINY).unwrap();
+    assert_eq!(device.trace_job(&path, 0), Err(SimError::NoJob));
+    device.trace_job(&path, 1).unwrap();
+    // The job ends within the call in which its waveform could not begin.
+    let error = device.send(&[command_word(Opcode::Clear); 2], 100_000).unwrap_err();
+    assert!(matches!(error, SimError::Trace(_)), "{error}");
 }
 
 #[test]

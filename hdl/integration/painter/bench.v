@@ -1,5 +1,6 @@
 // Simulates the painter, reads the bits on the lanes of its video output as a screen does, and writes each picture to a
-// file: picture_0.ppm has value 0 everywhere, picture_1.ppm is the first mesh. docs/core-in-your-design.md has the command.
+// file: picture_0.ppm has value 0 everywhere, picture_1.ppm is the first mesh. docs/core-in-your-design.md has the
+// command.
 // `+pictures=N` writes pictures 0 to N, 1 if it is left out. `$stop` ends the program with an error if a picture is not
 // whole, if the core refuses a command, or if no screen comes.
 // SPDX-License-Identifier: MIT OR Apache-2.0

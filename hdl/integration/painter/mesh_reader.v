@@ -11,8 +11,8 @@
 // | `ends` | out | 1 | high for a clock: the last triangle was taken |
 // | `has_failed` | out | 1 | from the first answer on that has a status other than `Ok`, until `reset` |
 //
-// POINTS is at least 3 and at most the number of points that the core holds, and ID_BITS the number of bits of the largest
-// id, POINTS - 1.
+// POINTS is at least 3 and at most the number of points that the core holds, and ID_BITS the number of bits of the
+// largest id, POINTS - 1.
 //
 // 1. A mesh is three commands: `Clear`, `Insert` with the points, `Triangles`. The core answers each before it takes
 //    the next, so nothing has to be stored here.
@@ -48,8 +48,8 @@ module mesh_reader #(
     output reg has_failed
 );
     // What is sent: the states in the order of the words.
-    localparam REST = 3'd0, CLEAR = 3'd1, INSERT = 3'd2, COUNT = 3'd3, SEND_POINTS = 3'd4, TRIANGLES = 3'd5, FIRST = 3'd6,
-        RECORDS = 3'd7;
+    localparam REST = 3'd0, CLEAR = 3'd1, INSERT = 3'd2, COUNT = 3'd3, SEND_POINTS = 3'd4, TRIANGLES = 3'd5,
+        FIRST = 3'd6, RECORDS = 3'd7;
     reg [2:0] sends;
     localparam [15:0] LAST = POINTS - 16'd1;
     localparam [ID_BITS - 1:0] ONE = 1, NONE = 0;

@@ -1,5 +1,5 @@
-// A complete design without a host: points that move, the core, and a picture of the mesh on a screen. The value of a pixel
-// is interpolated linearly between the corners of its triangle. docs/core-in-your-design.md explains the design.
+// A complete design without a host: points that move, the core, and a picture of the mesh on a screen. The value of a
+// pixel is interpolated linearly between the corners of its triangle. docs/core-in-your-design.md explains the design.
 //
 // | port | direction | bits | meaning |
 // |---|---|---|---|

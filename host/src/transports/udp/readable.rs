@@ -48,33 +48,16 @@ pub(super) fn wait_readable(socket: &UdpSocket, wait: Duration) -> io::Result<()
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Instant;
-
-    fn socket() -> UdpSocket {
-        let socket = UdpSocket::bind("127.0.0.1:0").expect("a socket");
-        socket.set_nonblocking(true).expect("a socket that does not block");
-        socket
-    }
 
     #[test]
     fn a_wait_ends_with_a_datagram_or_with_its_time_and_leaves_the_socket_as_it_was() {
-        let socket = socket();
+        let socket = UdpSocket::bind("127.0.0.1:0").expect("a socket");
+        socket.set_nonblocking(true).expect("a socket that does not block");
         wait_readable(&socket, Duration::from_micros(50)).expect("a wait");
         assert_eq!(socket.recv(&mut [0]).expect_err("nothing has come").kind(), io::ErrorKind::WouldBlock);
         socket.send_to(&[7], socket.local_addr().expect("an address")).expect("a datagram on its way");
         // An hour, so that only the datagram can end this wait.
         wait_readable(&socket, Duration::from_secs(3600)).expect("a wait");
         assert_eq!(socket.recv(&mut [0]).expect("the datagram"), 1);
-    }
-
-    #[test]
-    #[ignore = "measures the machine"]
-    fn short_waits_are_short() {
-        let socket = socket();
-        let begin = Instant::now();
-        for _ in 0..100 {
-            wait_readable(&socket, Duration::from_micros(200)).expect("a wait");
-        }
-        println!("{} us for each of 100 waits of 200 us", begin.elapsed().as_micros() / 100);
     }
 }
