@@ -14,10 +14,10 @@
 //!                               seed, solo        count: what happened
 //! ```
 //! The folder is the instance tree. [`InsertionEngine`] holds the blocks of the rooms `visit`, `solo`, `seed` and
-//! `write`, and [`Insertions`], which holds those of `dispatch`, `attempt` and `commit`. The core (`top/core.rs`) holds
-//! `count` beside the engine. The structs of `types` travel between the rooms. Each room's page draws its blocks and
-//! names the rules L1 to L11 of `docs/engine.md` that the room carries out; the code cites a rule where it
-//! carries the rule out.
+//! `write`, and [`Insertions`], which holds those of `dispatch`, `attempt` and `commit`, and in a core with deletions
+//! those of `holes`. The core (`top/core.rs`) holds `count` beside the engine. The structs of `types` travel between
+//! the rooms. Each room's page draws its blocks and names the rules L1 to L11 of `docs/engine.md` that the room carries
+//! out; the code cites a rule where it carries the rule out.
 
 mod attempt;
 mod commit;

@@ -16,12 +16,11 @@ pub struct NamedVertex {
     pub start: Signal<In, Start>,
     /// The visit that completes in the next clock.
     pub early: Signal<In, Upcoming>,
-    /// Of the visit that completes in this clock: the slot of the vertex, if the record names it; the vertex; and
-    /// whether the record is free.
+    /// Of the visit that completes in this clock: the slot of the vertex, if the record names it; and whether the
+    /// record is free.
     pub names0: Signal<Out, Bit>,
     pub names1: Signal<Out, Bit>,
     pub names2: Signal<Out, Bit>,
-    pub vertex: Signal<Out, VertexId>,
     pub is_free: Signal<Out, Bit>,
     vertices: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     has_taken: DFF<Bit>,
@@ -31,7 +30,6 @@ pub struct NamedVertex {
     is_v1: DFF<Bit>,
     is_v2: DFF<Bit>,
     free: DFF<Bit>,
-    kept: DFF<VertexId>,
     visit: Signal<Local, Visit>,
     turned: Signal<Local, Turned>,
 }
@@ -45,7 +43,7 @@ impl NamedVertex {
 impl Logic for NamedVertex {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, has_taken, taker, taken, is_v0, is_v1, is_v2, free, kept);
+        dff_setup!(self, clock, has_taken, taker, taken, is_v0, is_v1, is_v2, free);
         clock!(self, clock, vertices);
         self.has_taken.d.next = self.start.val().takes;
         self.taker.d.next = self.start.val().context;
@@ -56,7 +54,6 @@ impl Logic for NamedVertex {
         self.visit.next = self.early.val().visit;
         self.turned.next = self.early.val().turned;
         self.vertices.read_address.next = self.visit.val().context;
-        self.kept.d.next = self.vertices.read_data.val();
         self.is_v0.d.next = self.turned.val().v0 == self.vertices.read_data.val();
         self.is_v1.d.next = self.turned.val().v1 == self.vertices.read_data.val();
         self.is_v2.d.next = self.turned.val().v2 == self.vertices.read_data.val();
@@ -64,7 +61,6 @@ impl Logic for NamedVertex {
         self.names0.next = self.is_v0.q.val();
         self.names1.next = self.is_v1.q.val();
         self.names2.next = self.is_v2.q.val();
-        self.vertex.next = self.kept.q.val();
         self.is_free.next = self.free.q.val();
     }
 }
