@@ -103,7 +103,6 @@ fn hole_records_link_triangles_both_ways_and_mark_free_records() {
             }
             seen[base as usize] += 1;
         }
-        block.edge();
     }
     assert!(seen.iter().all(|&count| count > 300), "{seen:?}");
 }
