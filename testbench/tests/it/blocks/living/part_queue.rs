@@ -21,8 +21,8 @@ type Part = (u64, u64, [u64; 3], [u64; 3]);
 
 /// All beats that a part can have, the first words in the low halves.
 fn beats((number, outcome, [v0, v1, v2], [w0, w1, w2]): Part) -> [u64; 5] {
-    // A vertex beyond the capacity is any word.
-    let vertex = if outcome == 8 { w0 } else { v0 };
+    // A vertex that is beyond the capacity, or missing, may have any 32 bits.
+    let vertex = if [6, 8].contains(&outcome) { w0 } else { v0 };
     [outcome << 24 | number | vertex << 32, v1 | v2 << 32, w0, w1, w2]
 }
 

@@ -35,7 +35,7 @@ struct Rig {
 
 /// The point of a vertex.
 fn point(vertex: u64) -> u64 {
-    vertex * 0x0101_0101 & 0xffff_ffff
+    (vertex * 0x0101_0101) & 0xffff_ffff
 }
 
 impl Rig {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::rig::ethernet_frames::Reaction;
+use crate::rig::ethernet_frames::{Reaction, BROADCAST, DEVICE};
 use crate::rig::stepper::named_ports;
 use crate::rig::stream_rig::{Clocks, Pins};
 use incircle_hdl::ethernet::UdpPort;
