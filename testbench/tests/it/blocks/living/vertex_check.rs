@@ -152,7 +152,7 @@ fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
         rig.edge(None);
     }
     let mut seen = [0; 5];
-    for _ in 0..200 {
+    for _ in 0..300 {
         rig.clear();
         for _ in 0..rig.random.below(12) {
             let is_change = !rig.random.once_in(6);
