@@ -5,8 +5,8 @@
 
 use crate::engine::attempt::ContextAddress;
 use crate::engine::types::{
-    context_bits, ring_bits, ContextId, Entry, EntryWrite, RingEntry, RingWord, TestVertices, Visit, ENTRY_BITS,
-    RING_ADDRESS_BITS, RING_WORD_BITS, VERTEX_BITS,
+    context_bits, ring_bits, ContextId, Entry, EntryWrite, RingEntry, RingWord, TestVertices, TriangleId, Visit,
+    ENTRY_BITS, RING_ADDRESS_BITS, RING_WORD_BITS, VERTEX_BITS,
 };
 use crate::leaf::{BlockMemory, Parameter, Unpack};
 use crate::prelude::*;
@@ -41,6 +41,7 @@ pub struct HoleRing {
     kept_bits: Signal<Local, Bits<RING_WORD_BITS>>,
     read: Unpack<RingWord, RING_WORD_BITS>,
     places: Parameter<RingEntry>,
+    challenger: Signal<Local, TriangleId>,
 }
 
 impl HoleRing {
@@ -104,7 +105,9 @@ impl Logic for HoleRing {
         self.first_at.place.next = self.visit.val().after & self.places.val();
         self.second_at.place.next = self.visit.val().entry & self.places.val();
         self.third_at.place.next = self.visit.val().cavity_entry & self.places.val();
-        self.fourth_at.place.next = self.visit.val().cavity_record.get_bits::<6>(0) & self.places.val();
+        // The challenger of a test stands in the low bits of a field that has an id in other visits.
+        self.challenger.next = self.visit.val().cavity_record;
+        self.fourth_at.place.next = self.challenger.val().get_bits::<6>(0) & self.places.val();
         self.first.read_address.next = self.first_at.address.val();
         self.second.read_address.next = self.second_at.address.val();
         self.third.read_address.next = self.third_at.address.val();
