@@ -119,7 +119,7 @@ fn check_there(folder: &Path, manifest: &Manifest) -> Result<(), Failure> {
     }
     let (folder, verb) = (path::name(folder), if missing.len() == 1 { "is" } else { "are" });
     Err(Failure::input(format!(
-        "of the {count} tiles in {folder}, {} {verb} not triangulated yet: run 'incircle tile local {folder}/K' for \
+        "{} of the {count} tiles in {folder} {verb} not triangulated yet: run 'incircle tile local {folder}/K' for \
          K = {}",
         missing.len(),
         shown.join(", ")
