@@ -7,7 +7,7 @@
 use super::error::BoardError;
 use super::kept::{hexadecimal, Kept, Key};
 use super::link::BoardLink;
-use super::mapping::{mapping, placer, FLOORPLAN};
+use super::mapping::{mapping, placer};
 use super::port::{Rgmii, PORT_MHZ};
 use super::report::{dividers, Attempt, Bitstream, Cells, Network, Parts, Report, Seed, Serial, Summary, Versions};
 use super::tools::{run_strictly, Origin, Tools};
@@ -224,11 +224,11 @@ fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32)
     sources.extend(link.source());
     let mut copies = vec![
         (shared.join("clock.v"), "clock.v"),
-        (shared.join(FLOORPLAN), FLOORPLAN),
         (board.folder().join(format!("top{}.v", link.suffix())), "top.v"),
         (board.folder().join(format!("pins{}.lpf", link.suffix())), "pins.lpf"),
     ];
-    copies.extend(link.source().map(|name| (shared.join(name), name)));
+    let floorplan = board.floorplan(request.config);
+    copies.extend(link.source().into_iter().chain(floorplan).map(|name| (shared.join(name), name)));
     for (from, to) in copies {
         std::fs::copy(&from, work.join(to)).map_err(BoardError::file(from))?;
     }
@@ -240,15 +240,15 @@ fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32)
         sources.join(" "),
         mapping(&link.top(&board))
     );
-    if board.has_floorplan(request.config) {
-        script += &format!("; script {FLOORPLAN}");
+    if let Some(file) = floorplan {
+        script += &format!("; script {file}");
     }
     script += "; write_json netlist.json";
     for cell in readings::COUNTED {
         script += &format!("; tee -a {counts} select -count t:{cell}");
         script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
     }
-    sources.push(FLOORPLAN);
+    sources.extend(floorplan);
     let key = Key::default().text(&toolbox.versions.yosys).text(&script);
     let key = sources.iter().try_fold(key, |key, source| key.file(&work.join(source)))?;
     let counted = work.join(counts);

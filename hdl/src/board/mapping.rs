@@ -15,8 +15,13 @@ const CROWDED: &str = include_str!("../../../constraints/ecp5/crowded.txt");
 /// The most engines on a chip that the options of most chips can route.
 const ROOMY_ENGINES: u32 = 2;
 
-/// The file that fixes the places of block RAMs of the configuration `full` in the largest devices.
-pub(super) const FLOORPLAN: &str = "floorplan.ys";
+/// The files that fix the places of block RAMs in the largest devices, each for the configuration with this name.
+const FLOORPLANS: [(&str, &str); 2] = [("full", "floorplan.ys"), ("quad", "floorplan-quad.ys")];
+
+/// The file with the places of block RAMs in one of the largest devices, if there is one for this configuration.
+pub(super) fn floorplan(config: Config) -> Option<&'static str> {
+    FLOORPLANS.into_iter().find(|&(name, _)| name == config.name).map(|(_, file)| file)
+}
 
 /// The passes that turn a design that yosys has read into cells; `top` is its root module.
 pub fn mapping(top: &str) -> String {
@@ -38,7 +43,22 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use incircle_protocol::{DUAL, FULL, QUAD};
+    use incircle_protocol::{DUAL, FULL, QUAD, SMALL};
+
+    #[test]
+    fn a_floorplan_fixes_each_place_once() {
+        assert!(floorplan(SMALL).is_none() && floorplan(DUAL).is_none());
+        for config in [FULL, QUAD] {
+            let file = crate::board::constraints().join("ecp5").join(floorplan(config).expect("a file"));
+            let text = std::fs::read_to_string(file).expect("a floorplan");
+            let mut places: Vec<_> = lines(&text).filter_map(|line| line.split('"').nth(1)).collect();
+            let cells = places.len();
+            assert_eq!(cells, lines(&text).count());
+            places.sort_unstable();
+            places.dedup();
+            assert!(cells > 80 && places.len() == cells);
+        }
+    }
 
     #[test]
     fn comments_and_placeholders_are_gone() {
@@ -48,6 +68,6 @@ mod tests {
         for config in [FULL, DUAL] {
             assert!(placer(config).eq(["--placer", "static", "--tmg-ripup"]));
         }
-        assert!(placer(QUAD).eq(["--placer", "static", "--router", "router2"]));
+        assert!(placer(QUAD).eq(["--placer", "static"]));
     }
 }

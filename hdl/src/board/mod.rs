@@ -92,7 +92,7 @@ pub const BOARDS: [Board; 3] = [
         oscillator_hz: 25 * MHZ,
         most_mhz: 150,
         least_mhz: 50,
-        cores: &[BoardCore { config: FULL, usual_mhz: 120 }, BoardCore { config: QUAD, usual_mhz: 120 }],
+        cores: &[BoardCore { config: FULL, usual_mhz: 120 }, BoardCore { config: QUAD, usual_mhz: 95 }],
         fifo_bytes: 16384,
         bridge: "FT231X",
         bridge_rate: 3_000_000,
@@ -170,10 +170,10 @@ impl Board {
         Pll::new(self.oscillator_hz, clock_mhz * MHZ)
     }
 
-    /// Whether the floorplan in `constraints/ecp5` fits: the board has one of the largest devices, and
-    /// the core is `full`.
-    pub fn has_floorplan(&self, config: Config) -> bool {
-        self.chip[0].ends_with("85k") && config == FULL
+    /// The file in `constraints/ecp5` with the places of block RAMs: the board has one of the largest devices, and there
+    /// is such a file for this core.
+    fn floorplan(&self, config: Config) -> Option<&'static str> {
+        mapping::floorplan(config).filter(|_| self.chip[0].ends_with("85k"))
     }
 
     /// The parameters of the serial link at a clock.

@@ -148,6 +148,9 @@ impl<R: Read> Read for Unpacked<R> {
 
 /// The failure of an input that cannot be read.
 pub fn unreadable(error: &io::Error) -> Failure {
+    if error.kind() == io::ErrorKind::UnexpectedEof {
+        return Failure::input("the file ends too early: it is cut off, or it changed while it was read");
+    }
     Failure::input(format!("the file cannot be read: {error}"))
 }
 

@@ -3,8 +3,9 @@
 //! The handler ends the process at once, except while a job runs. A job is first asked to end by itself, which tidies
 //! up the device, and gets a moment for that. A second interrupt does not wait for the moment to pass.
 
+use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -19,7 +20,7 @@ static DONE: AtomicBool = AtomicBool::new(false);
 /// Whether the reason for the end of the run has been printed.
 static TOLD: Mutex<bool> = Mutex::new(false);
 /// The unfinished outputs of the run, which an interrupt removes.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+static UNFINISHED: Mutex<Unfinished> = Mutex::new(Unfinished::none());
 /// Older files, each under its second name and the name at which an output took its place. An interrupt puts them back.
 static REPLACED: Mutex<Vec<[PathBuf; 2]>> = Mutex::new(Vec::new());
 /// The sentence that says how the run can go on after an interrupt; empty if it cannot.
@@ -60,7 +61,7 @@ fn stop() {
         return;
     }
     // The last one comes first: a folder is made before the files in it. A folder that is not empty stays.
-    for path in unfinished.iter().rev() {
+    for path in unfinished.names.values().rev() {
         let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir(path));
     }
     for [older, path] in replaced().iter() {
@@ -126,7 +127,71 @@ pub fn replaced() -> MutexGuard<'static, Vec<[PathBuf; 2]>> {
     REPLACED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// The unfinished files and folders of a run, in the order in which they were made. All calls take logarithmic time,
+/// because a set may have any number of tiles.
+pub struct Unfinished {
+    /// The name with each number; later ones have larger numbers.
+    names: BTreeMap<u64, PathBuf>,
+    /// The number of each name.
+    numbers: BTreeMap<PathBuf, u64>,
+}
+
+impl Unfinished {
+    const fn none() -> Self {
+        Self { names: BTreeMap::new(), numbers: BTreeMap::new() }
+    }
+
+    /// Adds a file or folder that was just made.
+    pub fn push(&mut self, path: PathBuf) {
+        let number = self.names.last_key_value().map_or(0, |(last, _)| last + 1);
+        self.put(number, path);
+    }
+
+    /// Takes a file or folder out, if it is there.
+    pub fn remove(&mut self, path: &Path) {
+        self.names.remove(&self.numbers.remove(path).unwrap_or(u64::MAX));
+    }
+
+    /// Gives a file that is there its new name.
+    pub fn rename(&mut self, from: &Path, to: PathBuf) {
+        if let Some(number) = self.numbers.remove(from) {
+            self.put(number, to);
+        }
+    }
+
+    /// Puts a name at a number. A name that was there before has one number only.
+    fn put(&mut self, number: u64, path: PathBuf) {
+        if let Some(earlier) = self.numbers.insert(path.clone(), number) {
+            self.names.remove(&earlier);
+        }
+        self.names.insert(number, path);
+    }
+}
+
 /// The unfinished outputs, locked. While the lock is held no interrupt ends the process.
-pub fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+pub fn unfinished() -> MutexGuard<'static, Unfinished> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unfinished_files_keep_their_order_and_may_change_their_names() {
+        let mut unfinished = Unfinished::none();
+        for name in ["folder", "a", "b", "c", "a"] {
+            unfinished.push(name.into());
+        }
+        unfinished.rename(Path::new("b"), "d".into());
+        unfinished.rename(Path::new("missing"), "e".into());
+        unfinished.remove(Path::new("c"));
+        unfinished.remove(Path::new("b"));
+        let names = |unfinished: &Unfinished| unfinished.names.values().cloned().collect::<Vec<_>>();
+        assert_eq!(names(&unfinished), ["folder", "d", "a"].map(PathBuf::from));
+        for name in ["folder", "d", "a"] {
+            unfinished.remove(Path::new(name));
+        }
+        assert!(unfinished.names.is_empty() && unfinished.numbers.is_empty());
+    }
 }

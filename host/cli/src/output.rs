@@ -174,7 +174,7 @@ impl Written {
             interrupt::replaced().push([older, path.clone()]);
         }
         // Until the run is done an interrupt removes the file under its final name.
-        unfinished.iter_mut().filter(|kept| *kept == part).for_each(|kept| kept.clone_from(path));
+        unfinished.rename(part, path.clone());
         drop(unfinished);
         Ok(self.renaming.take().map(|(_, path)| path))
     }
@@ -185,7 +185,7 @@ impl Drop for Written {
         if let Some((part, _)) = self.renaming.take() {
             let mut unfinished = interrupt::unfinished();
             let _ = fs::remove_file(&part);
-            unfinished.retain(|kept| *kept != part);
+            unfinished.remove(&part);
         }
     }
 }
@@ -219,7 +219,7 @@ pub fn keep(
     let mut unfinished = interrupt::unfinished();
     for path in placed {
         settle(&path, result.is_ok());
-        unfinished.retain(|kept| *kept != path);
+        unfinished.remove(&path);
     }
     result
 }

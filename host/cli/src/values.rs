@@ -197,7 +197,7 @@ pub fn bytes_from(text: &str) -> Result<u64, String> {
     let bytes = number.parse::<u64>().ok().and_then(|number| number.checked_mul(unit));
     bytes
         .filter(|&bytes| bytes >= LEAST)
-        .ok_or_else(|| "give a number of bytes from 64K, such as 300M or 2G".to_owned())
+        .ok_or_else(|| "give a number of bytes from 64K, such as 300M or 2G; K, M and G are the units".to_owned())
 }
 
 /// Parses a number of threads.

@@ -100,7 +100,7 @@ pub struct JoinArguments {
     /// Write the triangles in the order of the tiles, which needs no sort: npy, csv and ele only
     #[arg(long)]
     pub unordered: bool,
-    /// Memory for the sort of the triangles, such as 1G; the rest is in the folder of the tiles
+    /// Memory for triangles, such as 1G; borders come on top, and the rest is in the folder of the tiles
     #[arg(long, value_name = "BYTES", value_parser = bytes_from, default_value = "256M")]
     pub memory: u64,
     #[command(flatten)]

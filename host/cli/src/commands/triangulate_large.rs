@@ -117,7 +117,11 @@ pub fn run(arguments: &TriangulateArguments, memory: u64) -> Result<(), Failure>
     let choice = choice.with_cpu_threads(NonZeroUsize::new(threads).unwrap_or(NonZeroUsize::MIN));
     Memory::give_back_lists();
     let run = Run { arguments, budget, format, choice, scratch: &scratch };
-    let done = run.steps(output);
+    let mut watch = Watch::start();
+    // A failure to cut the set, or to take the tiles of an earlier run, is not mended by going on.
+    let manifest = run.split()?;
+    watch.ended("split");
+    let done = run.steps(&manifest, watch, output);
     let remedy = remedy(&scratch);
     let left = scratch.can_go_on();
     match done {
@@ -194,28 +198,26 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn steps(&self, output: Output) -> Result<(), Failure> {
-        let mut watch = Watch::start();
-        let manifest = self.split()?;
-        watch.ended("split");
+    /// Triangulates the tiles, joins them and writes the mesh.
+    fn steps(&self, manifest: &Manifest, mut watch: Watch, output: Output) -> Result<(), Failure> {
         interrupt::set_remedy(format!("interrupted: no mesh was written; {}", remedy(self.scratch)));
-        self.solve(&manifest)?;
+        self.solve(manifest)?;
         watch.ended("local");
         let (folder, quiet) = (self.scratch.folder(), self.arguments.quiet);
         let memory = JoinMemory { sort: self.budget.sort, bound: Some(self.budget.memory) };
-        let joined = tiles::join(folder, &manifest, memory, false, quiet)?;
+        let joined = tiles::join(folder, manifest, memory, false, quiet)?;
         watch.ended("join");
         let counts = [manifest.points(), joined.duplicates, joined.triangles, joined.hull_points];
         let written = tiles::write_triangles(
             joined,
-            (folder, &manifest),
+            (folder, manifest),
             (self.order(), self.budget.sort),
             self.format,
             output,
             quiet,
         )?;
         watch.ended("write");
-        output::finish([written], || self.tell(&manifest, counts, &watch))
+        output::finish([written], || self.tell(manifest, counts, &watch))
     }
 
     fn order(&self) -> Order {

@@ -115,7 +115,7 @@ impl Drop for Spill {
         if !cfg!(unix) {
             let mut unfinished = interrupt::unfinished();
             let _ = fs::remove_file(&self.path);
-            unfinished.retain(|kept| *kept != self.path);
+            unfinished.remove(&self.path);
         }
     }
 }

@@ -103,7 +103,7 @@ impl PointFile {
         let mut unfinished = interrupt::unfinished();
         interrupt::check()?;
         fs::rename(&self.path, target).map_err(|error| cannot_write(target, &error))?;
-        unfinished.iter_mut().filter(|kept| **kept == self.path).for_each(|kept| *kept = target.to_owned());
+        unfinished.rename(&self.path, target.to_owned());
         drop(unfinished);
         self.path = PathBuf::new();
         Ok(Placed { path: target.to_owned() })
@@ -126,7 +126,7 @@ impl Placed {
     /// Leaves the file where it is.
     pub fn keep(mut self) {
         let path = std::mem::take(&mut self.path);
-        interrupt::unfinished().retain(|kept| *kept != path);
+        interrupt::unfinished().remove(&path);
     }
 }
 
@@ -142,7 +142,7 @@ fn remove(path: &Path) {
     }
     let mut unfinished = interrupt::unfinished();
     let _ = fs::remove_file(path);
-    unfinished.retain(|kept| kept != path);
+    unfinished.remove(path);
 }
 
 /// Removes the hidden working files with this ending that earlier runs left in a folder because they were killed.

@@ -28,7 +28,7 @@ impl Kind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Manifest => "a manifest of tiles",
-            Self::Points => "the points of a tile",
+            Self::Points => "the list of the points of a tile",
             Self::Local => "the triangulation of a tile",
         }
     }
@@ -39,13 +39,13 @@ impl Kind {
 pub struct Head {
     /// The content of the file.
     pub kind: Kind,
-    /// The run: a number made of the inputs and the cuts. Files of different runs do not fit together.
+    /// The run: a number made of the points and the cuts. Files of different runs do not fit together.
     pub run: u64,
     /// The number of the tile; 0 in a manifest.
     pub tile: u32,
     /// The lengths of the lists in the file. What they count depends on the kind.
     pub counts: [u64; 5],
-    /// The check sum (CRC-32) of all bytes behind the head.
+    /// The check sum (CRC-32) of the bytes behind the head; of a triangulation, of those up to its final triangles.
     pub check: u32,
 }
 
@@ -94,7 +94,7 @@ impl Head {
 }
 
 /// The end of a message about a file that cannot be used.
-const REMEDY: &str = "remove the file, and run again the step that writes it";
+const REMEDY: &str = "remove the file and do its step again, or remove the folder and begin again";
 
 /// The failure of a damaged file.
 pub fn damaged(why: &str) -> Failure {

@@ -117,11 +117,11 @@ fn check_there(folder: &Path, manifest: &Manifest) -> Result<(), Failure> {
     if missing.len() > SHOWN {
         shown.push(format!("and {} more", missing.len() - SHOWN));
     }
+    let (folder, verb) = (path::name(folder), if missing.len() == 1 { "is" } else { "are" });
     Err(Failure::input(format!(
-        "{} of the {count} tiles in {} are not triangulated yet: run 'incircle tile local {}/K' for K = {}",
+        "{} of the {count} tiles in {folder} {verb} not triangulated yet: run 'incircle tile local {folder}/K' for \
+         K = {}",
         missing.len(),
-        path::name(folder),
-        path::name(folder),
         shown.join(", ")
     )))
 }

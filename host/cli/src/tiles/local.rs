@@ -1,5 +1,6 @@
 //! The second verb: the points of one tile are triangulated.
 
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use incircle::tiles;
@@ -12,7 +13,7 @@ use super::manifest::{local_path, points_path, Manifest};
 use super::opened::{Opened, Owner};
 use super::result::{TileFile, TileResult};
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, Written};
 use crate::path;
 
 /// A tile of a folder.
@@ -85,12 +86,12 @@ pub fn local(
         file.check_finals()?;
         return last(&Outcome { points, counts, was_there: true });
     }
-    let (finals, result) = if points > manifest.most {
-        (Vec::new(), at_one_place(folder, owner, points, region)?)
-    } else {
-        let (ids, own) = read_points(folder, owner, points)?;
-        solve(&ids, own, (region, &manifest.occupancy), triangulate)?
-    };
+    if points > manifest.most {
+        let written = write_one_place(folder, owner, points, region)?;
+        return output::keep([written], || last(&Outcome { points, counts: [0, 1, 0], was_there: false }));
+    }
+    let (ids, own) = read_points(folder, owner, points)?;
+    let (finals, result) = solve(&ids, own, (region, &manifest.occupancy), triangulate)?;
     let counts = [finals.len(), result.border.points.len(), result.border.open.len()].map(|count| count as u64);
     let written = result.write(&finals, folder, owner)?;
     output::keep([written], || last(&Outcome { points, counts, was_there: false }))
@@ -118,25 +119,64 @@ fn open_points(folder: &Path, owner: Owner, points: u64) -> Result<Opened, Failu
     }
 }
 
-/// The result of a tile with more points than a tile may have: all are at one place. Takes 8 bytes a point.
-fn at_one_place(folder: &Path, owner: Owner, points: u64, region: tiles::Region) -> Result<TileResult, Failure> {
+/// Writes the file of a tile with more points than a tile may have: all are at one place. They are read again for each
+/// pass over the duplicates, because there may be more than the memory holds.
+fn write_one_place(folder: &Path, owner: Owner, points: u64, region: tiles::Region) -> Result<Written, Failure> {
+    let mut first = None;
+    each_at_one_place(folder, owner, points, &mut |row| {
+        first.get_or_insert(row);
+        Ok(())
+    })?;
+    let [lowest, x, y] = first.unwrap_or_default();
+    let border = tiles::Border { region, points: vec![Point::new(x, y)], ids: vec![lowest], open: Vec::new() };
+    let result = TileResult { border, hull: vec![lowest], duplicates: Vec::new() };
+    let mut unread = Ok(());
+    let mut duplicates = |out: &mut dyn Write| {
+        let (mut out, mut unwritten) = (BufWriter::new(out), Ok(()));
+        unread = each_at_one_place(folder, owner, points, &mut |[id, _, _]| {
+            if id == lowest {
+                return Ok(());
+            }
+            let written = out.write_all([id, lowest].map(u32::to_le_bytes).as_flattened());
+            written.map_err(|error| {
+                unwritten = Err(error);
+                Failure::input("the duplicates cannot be written")
+            })
+        });
+        if unwritten.is_err() {
+            unread = Ok(());
+            return unwritten;
+        }
+        if unread.is_err() {
+            return Err(io::Error::other("the points of the tile cannot be read"));
+        }
+        out.flush()
+    };
+    let written = result.write_with((points - 1, &mut duplicates), &[], folder, owner);
+    match unread {
+        Err(failure) if written.is_err() => Err(failure),
+        _ => written,
+    }
+}
+
+/// Calls `take` with each point of a tile, and refuses points at two places.
+fn each_at_one_place(
+    folder: &Path,
+    owner: Owner,
+    points: u64,
+    take: &mut dyn FnMut([u32; 3]) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let mut opened = open_points(folder, owner, points)?;
-    let (mut first, mut duplicates) = (None, Vec::new());
+    let mut place = None;
     opened.rows(points, |row: [u32; 3]| {
-        let [id, x, y] = *first.get_or_insert(row);
-        if [x, y] != [row[1], row[2]] {
+        let [_, x, y] = row;
+        if *place.get_or_insert([x, y]) != [x, y] {
             let name = path::name(&points_path(folder, owner.tile));
             return Err(damaged(&format!("its {points} points should be at one place")).in_file(name));
         }
-        if id != row[0] {
-            duplicates.push([row[0], id]);
-        }
-        Ok(())
+        take(row)
     })?;
-    opened.finish()?;
-    let (ids, points): (Vec<u32>, Vec<Point>) = first.map(|[id, x, y]| (id, Point::new(x, y))).into_iter().unzip();
-    let border = tiles::Border { region, points, ids: ids.clone(), open: Vec::new() };
-    Ok(TileResult { border, hull: ids, duplicates })
+    opened.finish()
 }
 
 /// Triangulates the points of a region and finds out what is final. The final triangles are in canonical order.

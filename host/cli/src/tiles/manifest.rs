@@ -114,14 +114,7 @@ impl Manifest {
             out.write_all(path)?;
         }
         for step in &self.steps {
-            // A tile has its number of points, and a join the number of its children.
-            let (kind, region, count) = match step {
-                Step::Tile { region, points } => (0u64, region, points.len()),
-                Step::Join { region, children } => (1, region, *children),
-            };
-            out.write_all([kind, count as u64].map(u64::to_le_bytes).as_flattened())?;
-            let sides = [region.west, region.east, region.south, region.north];
-            out.write_all(sides.map(|side| side.unwrap_or(FAR).to_le_bytes()).as_flattened())?;
+            out.write_all(step_words(step).map(u64::to_le_bytes).as_flattened())?;
         }
         let stretches = self.occupancy.stretches();
         out.write_all([self.occupancy.shift(), stretches.len() as u32].map(u32::to_le_bytes).as_flattened())?;
@@ -169,6 +162,18 @@ impl Manifest {
         });
         left == Some(1)
     }
+}
+
+/// A step as six numbers: 0 for a tile or 1 for a join, the points of the tile or the children of the join, and the
+/// sides of the region.
+pub fn step_words(step: &Step) -> [u64; 6] {
+    let (kind, region, count) = match step {
+        Step::Tile { region, points } => (0, region, points.len()),
+        Step::Join { region, children } => (1, region, *children),
+    };
+    let [west, east, south, north] =
+        [region.west, region.east, region.south, region.north].map(|side| side.unwrap_or(FAR).cast_unsigned());
+    [kind, count as u64, west, east, south, north]
 }
 
 /// The file of the manifest.

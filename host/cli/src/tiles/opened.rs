@@ -71,8 +71,8 @@ impl Opened {
         let Some(owner) = owner else { return Ok(()) };
         if self.head.run != owner.run {
             return Err(Failure::input(format!(
-                "the file belongs to run {:016x}, and the manifest to run {:016x}: remove the file, and run again the \
-                 step that writes it",
+                "the file belongs to run {:016x}, and the manifest to run {:016x}: remove the file and do its \
+                 step again, or remove the folder and begin again",
                 self.head.run, owner.run
             )));
         }

@@ -32,19 +32,37 @@ pub struct TileResult {
 impl TileResult {
     /// Writes the file of a tile under a working name. The final triangles are in input indices and in canonical order.
     pub fn write(&self, finals: &[[u32; 3]], folder: &Path, owner: Owner) -> Result<Written, Failure> {
-        let Self { border, hull, duplicates } = self;
-        let counts = [finals.len(), border.points.len(), border.open.len(), hull.len(), duplicates.len()];
-        let counts = counts.map(|count| count as u64);
-        let head = Head { kind: Kind::Local, run: owner.run, tile: owner.tile, counts, check: 0 };
-        write_checked(&local_path(folder, owner.tile), head, &mut |out| self.encode(out), Some(finals))
+        let count = self.duplicates.len() as u64;
+        self.write_with((count, &mut |out| write_rows(&self.duplicates, out)), finals, folder, owner)
     }
 
+    /// Writes the file as [`write`](Self::write) does, with so many duplicates that a function writes, which is called
+    /// twice. So no list of them need be in memory.
+    pub fn write_with(
+        &self,
+        (count, duplicates): (u64, &mut dyn FnMut(&mut dyn Write) -> io::Result<()>),
+        finals: &[[u32; 3]],
+        folder: &Path,
+        owner: Owner,
+    ) -> Result<Written, Failure> {
+        let Self { border, hull, .. } = self;
+        let counts = [finals.len(), border.points.len(), border.open.len(), hull.len()].map(|count| count as u64);
+        let [finals_count, points, open, hull] = counts;
+        let counts = [finals_count, points, open, hull, count];
+        let head = Head { kind: Kind::Local, run: owner.run, tile: owner.tile, counts, check: 0 };
+        let mut content = |out: &mut dyn Write| {
+            self.encode(out)?;
+            duplicates(out)
+        };
+        write_checked(&local_path(folder, owner.tile), head, &mut content, Some(finals))
+    }
+
+    /// Writes the lists before the duplicates.
     fn encode(&self, out: &mut dyn Write) -> io::Result<()> {
         let points = self.border.points.iter().zip(&self.border.ids).map(|(point, &id)| [id, point.x, point.y]);
         write_rows(&points.collect::<Vec<_>>(), out)?;
         write_rows(&self.border.open, out)?;
-        write_rows(self.hull.as_chunks::<1>().0, out)?;
-        write_rows(&self.duplicates, out)
+        write_rows(self.hull.as_chunks::<1>().0, out)
     }
 }
 
@@ -97,10 +115,7 @@ impl TileFile {
         self.opened.rows(hull, |_: [u32; 1]| Ok(()))?;
         self.opened.rows(duplicates, |_: [u32; 2]| Ok(()))?;
         self.opened.end_of_content()?;
-        match is_beyond {
-            true => Err(damaged("a point lies beyond its region").in_file(&self.name)),
-            false => Ok(()),
-        }
+        self.check_region(is_beyond)
     }
 
     /// Reads all but the final triangles, and checks it.
@@ -110,7 +125,9 @@ impl TileFile {
         let room = usize::try_from(points).unwrap_or(usize::MAX);
         let has_room = border.points.try_reserve_exact(room).and_then(|()| border.ids.try_reserve_exact(room));
         has_room.map_err(|_| Failure::input(format!("the {points} points of {} do not fit the memory", self.name)))?;
+        let mut is_beyond = false;
         self.opened.rows(points, |[id, x, y]| {
+            is_beyond |= !region.contains([x.into(), y.into()]);
             border.points.push(Point::new(x, y));
             border.ids.push(id);
             Ok(())
@@ -126,6 +143,7 @@ impl TileFile {
             Ok(())
         })?;
         self.opened.end_of_content()?;
+        self.check_region(is_beyond)?;
         let result = TileResult { border, hull, duplicates: pairs };
         let indices = result.border.ids.iter().chain(&result.hull).copied();
         self.check_index(indices.max().max(most))?;
@@ -148,6 +166,13 @@ impl TileFile {
             finals.read(&mut some, 1 << 16)?;
         }
         finals.end()
+    }
+
+    fn check_region(&self, is_beyond: bool) -> Result<(), Failure> {
+        match is_beyond {
+            true => Err(damaged("a point lies beyond its region").in_file(&self.name)),
+            false => Ok(()),
+        }
     }
 
     fn check_index(&self, most: Option<u32>) -> Result<(), Failure> {

@@ -106,7 +106,7 @@ impl Drop for Run {
     fn drop(&mut self) {
         let mut unfinished = interrupt::unfinished();
         let _ = fs::remove_file(&self.path);
-        unfinished.retain(|kept| *kept != self.path);
+        unfinished.remove(&self.path);
     }
 }
 

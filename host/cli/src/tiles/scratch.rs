@@ -114,7 +114,8 @@ fn make_and_lock(folder: &Path, lock: &Path) -> Result<File, Failure> {
         lock_now(&file, folder)?;
         // The lock of a process that ended meanwhile is gone with its folder, and others make a new one.
         if is_last || is_file(&file, lock) {
-            unfinished.extend([folder.to_owned(), lock.to_owned()]);
+            unfinished.push(folder.to_owned());
+            unfinished.push(lock.to_owned());
             return Ok(file);
         }
     }
@@ -154,6 +155,7 @@ impl Drop for Scratch {
             // The files of a split that failed are gone, so the folder is empty.
             let _ = fs::remove_dir(&self.folder);
         }
-        unfinished.retain(|kept| *kept != self.lock && *kept != self.folder);
+        unfinished.remove(&self.lock);
+        unfinished.remove(&self.folder);
     }
 }

@@ -13,7 +13,7 @@ use super::digest::Digest;
 use super::ground::{Ground, Length};
 use super::head::{Head, Kind, HEAD_BYTES, VERSION};
 use super::inputs::{changed, each_piece};
-use super::manifest::{local_path, manifest_path, points_path, Manifest};
+use super::manifest::{local_path, manifest_path, points_path, step_words, Manifest};
 use super::survey::{survey, Survey};
 use crate::arguments::ReadArguments;
 use crate::failure::Failure;
@@ -35,7 +35,8 @@ pub struct Plan<'a> {
     pub sample: usize,
     /// The bytes that all buffers together take, unless there are very many tiles.
     pub buffers: usize,
-    /// Called with the number of points before the first file is written. An error ends the split.
+    /// Called with the number of points before the first file is written, or when the files of an earlier split are
+    /// taken. An error ends the split.
     pub check: &'a dyn Fn(u64) -> Result<(), Failure>,
     /// Whether no progress is shown.
     pub quiet: bool,
@@ -62,15 +63,14 @@ pub struct Summary {
 /// passes. The folder cannot be written, or has tiles of another run. Nothing is left behind.
 pub fn split(plan: &Plan<'_>, last: impl FnOnce(&Summary) -> Result<(), Failure>) -> Result<(), Failure> {
     let survey = survey(plan.inputs, plan.read, plan.sample, plan.quiet)?;
-    let run = run_of(&survey, plan.most);
     if manifest_path(plan.folder).exists() {
-        return last(&known(plan, run)?);
+        return last(&known(plan, &survey)?);
     }
     (plan.check)(survey.points)?;
     let is_new = !plan.folder.exists();
     fs::create_dir_all(plan.folder)
         .map_err(|error| Failure::input(format!("{} cannot be made: {error}", path::name(plan.folder))))?;
-    let done = split_into(plan, survey, run, last);
+    let done = split_into(plan, survey, last);
     if done.is_err() && is_new {
         // A folder with anything in it stays.
         let _ = fs::remove_dir(plan.folder);
@@ -82,7 +82,6 @@ pub fn split(plan: &Plan<'_>, last: impl FnOnce(&Summary) -> Result<(), Failure>
 fn split_into(
     plan: &Plan<'_>,
     survey: Survey,
-    run: u64,
     last: impl FnOnce(&Summary) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let tree = Tree::of_positions(&positions(&survey.sample), most_of_sample(&survey, plan.most));
@@ -98,6 +97,7 @@ fn split_into(
             Step::Tile { region, .. } => tiles.add(plan, *region, cells.next())?,
         }
     }
+    let run = run_of(&survey, plan.most, &tiles.steps);
     let Survey { ground, inputs, points, .. } = survey;
     let manifest = Manifest { run, most: plan.most.get() as u64, inputs, ground, steps: tiles.steps, occupancy };
     let bytes = points * POINT_BYTES as u64 + (tiles.files.len() * HEAD_BYTES) as u64;
@@ -110,7 +110,7 @@ fn split_into(
 }
 
 /// A number for the run, made of all that decides what is in the files.
-fn run_of(survey: &Survey, most: NonZeroUsize) -> u64 {
+fn run_of(survey: &Survey, most: NonZeroUsize, steps: &[Step]) -> u64 {
     let mut digest = Digest::default();
     let mut add = |word: u64| digest.mix(word);
     add(u64::from(VERSION));
@@ -127,12 +127,15 @@ fn run_of(survey: &Survey, most: NonZeroUsize) -> u64 {
         add(input.points);
         add(input.digest);
     }
+    steps.iter().flat_map(step_words).for_each(add);
     digest.value()
 }
 
 /// The result of an earlier split in the folder. Tiles of another run are refused.
-fn known(plan: &Plan<'_>, run: u64) -> Result<Summary, Failure> {
+fn known(plan: &Plan<'_>, survey: &Survey) -> Result<Summary, Failure> {
     let manifest = Manifest::read(plan.folder)?;
+    // The cuts may come from a sample of another size.
+    let run = run_of(survey, plan.most, &manifest.steps);
     if manifest.run != run {
         return Err(Failure::input(format!(
             "{} has the tiles of another run ({:016x}, not {run:016x}): choose another folder, or remove this one",
@@ -150,6 +153,7 @@ fn known(plan: &Plan<'_>, run: u64) -> Result<Summary, Failure> {
             )));
         }
     }
+    (plan.check)(survey.points)?;
     let bytes = manifest.points() * POINT_BYTES as u64 + (manifest.tiles().count() * HEAD_BYTES) as u64;
     Ok(Summary { manifest, bytes, was_there: true })
 }
@@ -313,4 +317,21 @@ fn place(folder: &Path, manifest: &Manifest, files: Vec<PointFile>) -> Result<(V
         placed.push(file.place(head, &points_path(folder, tile))?);
     }
     Ok((placed, manifest.write(folder)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_cuts_of_one_set_are_another_run() {
+        let ground = Ground { length: Length::Decimal(0), offset: [0; 2], bits: 4 };
+        let survey = Survey { points: 2, inputs: Vec::new(), sample: Vec::new(), ground };
+        let run = |west| {
+            let steps = [Step::Tile { region: Region { west, ..Region::WHOLE }, points: 0..2 }];
+            run_of(&survey, NonZeroUsize::MIN, &steps)
+        };
+        assert_eq!(run(Some(1)), run(Some(1)));
+        assert!(run(Some(1)) != run(Some(2)) && run(Some(1)) != run(None));
+    }
 }

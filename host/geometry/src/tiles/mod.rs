@@ -21,7 +21,7 @@
 //! corners in the borders. `docs/tiles.md` has the proof, and what goes wrong if a disc that touches a side counts.
 //!
 //! A carrier that knows where points are ([`Occupancy`]) finds more: a triangle whose disc touches no occupied place
-//! beyond its region is as final ([`local_among`]). Points on curves need this, because their discs are large and
+//! beyond its region is final as well ([`local_among`]). Points on curves need this, because their discs are large and
 //! empty.
 //!
 //! ```

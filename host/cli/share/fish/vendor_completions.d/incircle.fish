@@ -246,7 +246,7 @@ json\t'Points, triangles, hull and duplicates'
 csv\t'Rows `a,b,c`'
 npy\t'An array of NumPy, of shape (m, 3) and type u4'
 svg\t'A picture'"
-complete -c incircle -n "__fish_incircle_using_subcommand tile; and __fish_seen_subcommand_from join" -l memory -d 'Memory for the sort of the triangles, such as 1G; the rest is in the folder of the tiles' -r
+complete -c incircle -n "__fish_incircle_using_subcommand tile; and __fish_seen_subcommand_from join" -l memory -d 'Memory for triangles, such as 1G; borders come on top, and the rest is in the folder of the tiles' -r
 complete -c incircle -n "__fish_incircle_using_subcommand tile; and __fish_seen_subcommand_from join" -l from -d 'Point format' -r -f -a "csv\t'Rows `x,y`, header optional'
 xyz\t'Rows `x y [z]`'
 node\t'Shewchuk\'s Triangle, .node'

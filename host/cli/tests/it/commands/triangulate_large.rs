@@ -85,6 +85,18 @@ fn points_at_one_place_or_on_one_line_take_the_memory_that_they_are_given() {
     }
 }
 
+/// A place may have more points than the memory holds.
+#[test]
+fn any_number_of_points_at_one_place_takes_the_memory_that_it_is_given() {
+    let scratch = Scratch::new();
+    let mut file = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    let head = "{'descr': '<i4', 'fortran_order': False, 'shape': (6000000, 2), }";
+    file.extend(format!("{head:<117}\n").bytes());
+    file.extend([7u32, 9].map(u32::to_le_bytes).as_flattened().repeat(6_000_000));
+    scratch.write("p.npy", file);
+    check_within_least_memory(&scratch, "p.npy");
+}
+
 /// The hull of a set is joined at once, so a set that has very many points there needs the memory for these.
 #[test]
 fn a_hull_that_does_not_fit_is_refused_and_goes_on_in_more_memory() {
@@ -179,7 +191,9 @@ fn a_killed_run_goes_on() {
         // Other points are found, and less memory makes no other tiles.
         scratch.run("generate uniform -n 500000 --bits 30 -o q.npy").ok();
         let other = "triangulate q.npy -o m.npy --memory 32M --resume";
-        scratch.run(other).fails(3, &["tiles of another run", "--resume goes on"]);
+        let refused =
+            scratch.run(other).fails(3, &["tiles of another run", "choose another folder, or remove this one"]);
+        assert!(!refused.stderr.contains("--resume goes on"), "{refused:?}");
         assert_eq!(finished_tiles(&scratch), finished);
         scratch.run("triangulate p.npy -o m.npy --memory 64M --resume").ok();
         assert!(scratch.bytes("m.npy") == scratch.bytes("right.npy"), "{blocks} blocks");
