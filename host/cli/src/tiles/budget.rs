@@ -2,6 +2,7 @@
 
 use std::num::NonZeroUsize;
 
+use super::disk::told;
 use crate::failure::Failure;
 
 /// The least memory that a set in tiles takes.
@@ -56,9 +57,10 @@ impl Budget {
         let at_once = points_at_once(memory)? / most.max(1);
         if at_once == 0 {
             return Err(Failure::usage(format!(
-                "--memory {memory} does not hold a tile of the run that is to go on, of up to {most} points: give {} \
+                "the {} of --memory do not hold a tile of the run that is to go on, of up to {most} points: give {}M \
                  or more",
-                PROGRAM + most.saturating_mul(TILE_BYTES)
+                told(memory),
+                PROGRAM.saturating_add(most.saturating_mul(TILE_BYTES)).div_ceil(1 << 20)
             )));
         }
         Ok(Self::new(memory, at_once.min(workers.get() as u64), most))
@@ -125,7 +127,7 @@ mod tests {
         let resumed = |memory| Budget::for_tiles(memory, some, 1_000_000);
         assert_eq!(resumed(500 << 20).map(|budget| budget.workers.get()), Ok(3));
         let refused = resumed(100 << 20).map_err(|failure| failure.message);
-        assert!(refused.is_err_and(|message| message.contains("give 184777216 or more")));
+        assert!(refused.is_err_and(|message| message.contains("give 177M or more")));
         assert_eq!(resumed(184_777_216).map(|budget| budget.workers.get()), Ok(1));
         assert!(Budget::of(LEAST - 1, some).is_err_and(|failure| failure.message.contains("give 32M")));
     }

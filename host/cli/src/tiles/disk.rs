@@ -68,12 +68,16 @@ pub fn room_for(folder: &Path, bytes: u64) -> Result<(), Failure> {
     }
 }
 
-/// A number of bytes with a unit that suits it, for messages.
+/// A number of bytes with a unit that suits it, for messages. The units are powers of 1,024, as those of `--memory` are.
 pub fn told(bytes: u64) -> String {
-    match bytes {
-        0..1_000_000 => format!("{bytes} bytes"),
-        1_000_000..10_000_000_000 => format!("{} MB", bytes / 1_000_000),
-        _ => format!("{} GB", bytes / 1_000_000_000),
+    const MEBIBYTE: u64 = 1 << 20;
+    const GIBIBYTE: u64 = 1 << 30;
+    if bytes < MEBIBYTE {
+        format!("{bytes} bytes")
+    } else if bytes < 10 * GIBIBYTE {
+        format!("{} MiB", bytes / MEBIBYTE)
+    } else {
+        format!("{} GiB", bytes / GIBIBYTE)
     }
 }
 

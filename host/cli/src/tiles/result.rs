@@ -15,6 +15,9 @@ use crate::failure::Failure;
 use crate::output::Written;
 use crate::path;
 
+/// Writes rows behind others; called twice, and must write the same both times.
+pub type WriteRows<'a> = dyn FnMut(&mut dyn Write) -> io::Result<()> + 'a;
+
 /// The bytes of the check sum behind the final triangles.
 const SUM_BYTES: u64 = 4;
 
@@ -40,7 +43,7 @@ impl TileResult {
     /// twice. So no list of them need be in memory.
     pub fn write_with(
         &self,
-        (count, duplicates): (u64, &mut dyn FnMut(&mut dyn Write) -> io::Result<()>),
+        (count, duplicates): (u64, &mut WriteRows<'_>),
         finals: &[[u32; 3]],
         folder: &Path,
         owner: Owner,
