@@ -112,6 +112,6 @@ mod tests {
         let folder = std::env::temp_dir();
         assert!(needed.check(&folder, Some(&folder), 0).is_ok());
         let huge = Needed::of(u64::MAX / 1000, MeshFormat::Npy);
-        assert!(huge.check(&folder, None, 0).is_err_and(|failure| failure.message.contains("GB are needed")));
+        assert!(huge.check(&folder, None, 0).is_err_and(|failure| failure.message.contains("GiB are needed")));
     }
 }
