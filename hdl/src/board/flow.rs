@@ -228,6 +228,7 @@ fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32)
         (board.folder().join(format!("pins{}.lpf", link.suffix())), "pins.lpf"),
     ];
     let floorplan = board.floorplan(request.config);
+    let floorplan = floorplan.as_deref();
     copies.extend(link.source().into_iter().chain(floorplan).map(|name| (shared.join(name), name)));
     for (from, to) in copies {
         std::fs::copy(&from, work.join(to)).map_err(BoardError::file(from))?;

@@ -1,7 +1,7 @@
 //! The mapping of a design to the ECP5 and its placement, in the words of the files in `constraints/ecp5`.
 //! `constraints/ecp5/timing` reads the same files.
 
-use incircle_protocol::Config;
+use incircle_protocol::{Config, QUAD};
 
 /// The passes of yosys, with the placeholder TOP for the root module.
 const PASSES: &str = include_str!("../../../constraints/ecp5/mapping.ys");
@@ -9,19 +9,8 @@ const PASSES: &str = include_str!("../../../constraints/ecp5/mapping.ys");
 /// Options of nextpnr, one or more a line.
 const PLACER: &str = include_str!("../../../constraints/ecp5/placer.txt");
 
-/// Options of nextpnr for chips of more than [`ROOMY_ENGINES`] engines.
-const CROWDED: &str = include_str!("../../../constraints/ecp5/crowded.txt");
-
-/// The most engines on a chip that the options of most chips can route.
-const ROOMY_ENGINES: u32 = 2;
-
-/// The files that fix the places of block RAMs in the largest devices, each for the configuration with this name.
-const FLOORPLANS: [(&str, &str); 2] = [("full", "floorplan.ys"), ("quad", "floorplan-quad.ys")];
-
-/// The file with the places of block RAMs in one of the largest devices, if there is one for this configuration.
-pub(super) fn floorplan(config: Config) -> Option<&'static str> {
-    FLOORPLANS.into_iter().find(|&(name, _)| name == config.name).map(|(_, file)| file)
-}
+/// Options of nextpnr for `quad`, in place of those.
+const QUAD_PLACER: &str = include_str!("../../../constraints/ecp5/placer-quad.txt");
 
 /// The passes that turn a design that yosys has read into cells; `top` is its root module.
 pub fn mapping(top: &str) -> String {
@@ -31,7 +20,7 @@ pub fn mapping(top: &str) -> String {
 
 /// Options of nextpnr for a chip of this configuration, except those that name files and the device.
 pub(super) fn placer(config: Config) -> impl Iterator<Item = &'static str> {
-    let options = if config.engines > ROOMY_ENGINES { CROWDED } else { PLACER };
+    let options = if config.name == QUAD.name { QUAD_PLACER } else { PLACER };
     lines(options).flat_map(str::split_whitespace)
 }
 
@@ -42,14 +31,16 @@ fn lines(text: &str) -> impl Iterator<Item = &str> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{constraints, BOARDS};
     use super::*;
-    use incircle_protocol::{DUAL, FULL, QUAD, SMALL};
+    use incircle_protocol::{DUAL, FULL, SMALL};
 
     #[test]
     fn a_floorplan_fixes_each_place_once() {
+        let floorplan = |config| BOARDS[0].floorplan(config);
         assert!(floorplan(SMALL).is_none() && floorplan(DUAL).is_none());
         for config in [FULL, QUAD] {
-            let file = crate::board::constraints().join("ecp5").join(floorplan(config).expect("a file"));
+            let file = constraints().join("ecp5").join(floorplan(config).expect("a file"));
             let text = std::fs::read_to_string(file).expect("a floorplan");
             let mut places: Vec<_> = lines(&text).filter_map(|line| line.split('"').nth(1)).collect();
             let cells = places.len();

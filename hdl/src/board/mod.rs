@@ -172,8 +172,10 @@ impl Board {
 
     /// The file in `constraints/ecp5` with the places of block RAMs: the board has one of the largest devices, and there
     /// is such a file for this core.
-    fn floorplan(&self, config: Config) -> Option<&'static str> {
-        mapping::floorplan(config).filter(|_| self.chip[0].ends_with("85k"))
+    fn floorplan(&self, config: Config) -> Option<String> {
+        let name = format!("floorplan-{}.ys", config.name);
+        let is_there = constraints().join("ecp5").join(&name).exists();
+        (is_there && self.chip[0].ends_with("85k")).then_some(name)
     }
 
     /// The parameters of the serial link at a clock.

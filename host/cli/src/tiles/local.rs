@@ -130,33 +130,19 @@ fn write_one_place(folder: &Path, owner: Owner, points: u64, region: tiles::Regi
     let [lowest, x, y] = first.unwrap_or_default();
     let border = tiles::Border { region, points: vec![Point::new(x, y)], ids: vec![lowest], open: Vec::new() };
     let result = TileResult { border, hull: vec![lowest], duplicates: Vec::new() };
-    let mut unread = Ok(());
     let mut duplicates = |out: &mut dyn Write| {
-        let (mut out, mut unwritten) = (BufWriter::new(out), Ok(()));
-        unread = each_at_one_place(folder, owner, points, &mut |[id, _, _]| {
+        let mut out = BufWriter::new(out);
+        let read = each_at_one_place(folder, owner, points, &mut |[id, _, _]| {
             if id == lowest {
                 return Ok(());
             }
             let written = out.write_all([id, lowest].map(u32::to_le_bytes).as_flattened());
-            written.map_err(|error| {
-                unwritten = Err(error);
-                Failure::input("the duplicates cannot be written")
-            })
+            written.map_err(|error| Failure::input(error.to_string()))
         });
-        if unwritten.is_err() {
-            unread = Ok(());
-            return unwritten;
-        }
-        if unread.is_err() {
-            return Err(io::Error::other("the points of the tile cannot be read"));
-        }
+        read.map_err(|failure| io::Error::other(failure.message))?;
         out.flush()
     };
-    let written = result.write_with((points - 1, &mut duplicates), &[], folder, owner);
-    match unread {
-        Err(failure) if written.is_err() => Err(failure),
-        _ => written,
-    }
+    result.write_with((points - 1, &mut duplicates), &[], folder, owner)
 }
 
 /// Calls `take` with each point of a tile, and refuses points at two places.

@@ -84,22 +84,7 @@ impl Outcome {
 
     fn test(mut self, done: &Completion, around: &Around) -> Self {
         let mut state = around.attempt;
-        let foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
-        if done.took {
-            self.lock = Some((state.logged, done.visit.record));
-            state.logged += 1;
-        }
-        state.outstanding -= 1;
-        if state.drains {
-        } else if foreign && around.holds_priority(self.context) {
-            self = self.again(done);
-            self.waits = true;
-            state.outstanding += 1;
-        } else if foreign {
-            // L1: the attempt aborts, and its visits complete before its locks are released.
-            state.drains = true;
-            self.aborts = true;
-            self.asks_for_priority = true;
+        if !self.takes_lock(done, around, &mut state) {
         } else if !done.conflict {
             let Completion { visit, record, slot, .. } = *done;
             self.entry = Some((

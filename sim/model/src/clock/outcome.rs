@@ -101,6 +101,31 @@ impl Outcome {
         self
     }
 
+    /// L1, L2: notes the lock that a visit of an attempt took. At the lock of another context this one waits if it holds
+    /// the priority. Else its attempt drains: its visits complete before its locks are released. Returns whether the
+    /// visit counts.
+    pub(super) fn takes_lock(&mut self, done: &Completion, around: &Around, state: &mut Attempt) -> bool {
+        if done.took {
+            self.lock = Some((state.logged, done.visit.record));
+            state.logged += 1;
+        }
+        state.outstanding -= 1;
+        let is_foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
+        if state.drains || !is_foreign {
+            return !state.drains;
+        }
+        if around.holds_priority(self.context) {
+            *self = self.again(done);
+            self.waits = true;
+            state.outstanding += 1;
+        } else {
+            state.drains = true;
+            self.aborts = true;
+            self.asks_for_priority = true;
+        }
+        false
+    }
+
     /// L1, L2: another context holds the lock of the root.
     pub(super) fn foreign_root(mut self, done: &Completion, around: &Around) -> Self {
         if around.holds_priority(self.context) {

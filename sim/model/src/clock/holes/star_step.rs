@@ -82,23 +82,8 @@ impl Outcome {
 
     fn star_visit(mut self, done: &Completion, around: &Around, mut star: Star) -> Self {
         let mut state = around.attempt;
-        if done.took {
-            self.lock = Some((state.logged, done.visit.record));
-            state.logged += 1;
-        }
-        let foreign = done.foreign && around.defect != Some(Defect::IgnoresForeignLocks);
-        state.outstanding -= 1;
-        if state.drains {
-        } else if foreign && around.holds_priority(self.context) {
-            // M5: the context with the priority waits at a foreign lock.
-            self = self.again(done);
-            self.waits = true;
-            state.outstanding += 1;
-        } else if foreign {
-            // M4: the attempt drains.
-            state.drains = true;
-            self.aborts = true;
-            self.asks_for_priority = true;
+        // M4, M5: locks are those of an insertion.
+        if !self.takes_lock(done, around, &mut state) {
         } else if done.visit.is_outside_star() {
             self.note_outside(done, &mut star, around);
         } else {
