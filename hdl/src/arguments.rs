@@ -65,7 +65,7 @@ pub(crate) struct ExportArguments {
     #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
     pub(crate) engines: u32,
     /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs and Delete. For cores
-    /// of one engine, without a link, and with at most 32 boundary edges in a list.
+    /// of one engine, alone or behind a serial link, with at most 32 boundary edges in a list.
     #[arg(long, requires = "core_size")]
     pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.
@@ -183,6 +183,10 @@ pub(crate) struct BoardArguments {
     /// Configuration of the core. Default: the first core in the table of the board.
     #[arg(long, value_parser = config, conflicts_with = "all")]
     pub(crate) config: Option<Config>,
+    /// Give the core the commands for a mesh that lives. For cores of one engine behind the serial line; no report of
+    /// such a core is kept.
+    #[arg(long, conflicts_with_all = ["all", "table", "renew"])]
+    pub(crate) living: bool,
     /// Link between the core and its host.
     #[arg(long, value_enum, default_value = "serial", conflicts_with = "all")]
     pub(crate) link: LinkName,

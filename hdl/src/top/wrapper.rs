@@ -243,10 +243,10 @@ const BETWEEN: [(&str, &str, usize); 10] = [
     ("", "device_busy", 1),
 ];
 
-/// The modules of a chip of several engines behind a link.
+/// The modules of a chip of several engines, or of a core with runs, behind a link.
 #[derive(Clone, Copy)]
 pub struct ChipParts<'a> {
-    /// The root module of the link, and that of the engines.
+    /// The root module of the link, and that of the engines or of the core with runs.
     pub link: &'a str,
     pub chip: &'a str,
     pub engines: u32,
@@ -260,11 +260,17 @@ impl ChipParts<'_> {
         let probe = Probe { engines, is_shown: with_probe };
         let wires = BETWEEN.iter().map(|(_, name, width)| format!("    {};\n", declared("", name, *width).trim()));
         let streams = connections(&BETWEEN[1..9]);
+        // All that a core of one engine holds shows in its streams.
+        let (busy, idle) = match engines {
+            1 => ("", "    assign device_busy = 1'b0;\n"),
+            _ => ("        .is_busy(device_busy),\n", ""),
+        };
         wires.collect::<String>()
+            + idle
             + &probe.inside()
             + &format!(
-                "    {chip} engines (\n        .clock({clock}),\n        .reset(core_reset),\n{streams}        \
-                 .is_busy(device_busy),\n{}\n    );\n",
+                "    {chip} engines (\n        .clock({clock}),\n        .reset(core_reset),\n{streams}{busy}{}\n    \
+                 );\n",
                 probe.connections()
             )
     }
