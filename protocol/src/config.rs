@@ -51,8 +51,8 @@ pub const MIN_CONTEXTS: u32 = 1;
 /// The numbers of engines that a chip may have: the blocks between the streams and the engines are drawn for these.
 pub const ENGINES: [u32; 3] = [1, 2, 4];
 /// Number of words of commands that wait for an engine while it works, so that the commands behind a long `Insert` do
-/// not hold up those for other engines. Over the UDP link a mesh is read by up to 69 commands of three words each, so
-/// all of a job has room.
+/// not hold up those for other engines. Over the UDP link a mesh of 8,192 points is read by at most 69 commands of
+/// three words, so all commands behind the `Insert` have room.
 pub const ENGINE_QUEUE_WORDS: usize = 256;
 /// Number of points that context 0 inserts on its own, the first three included, because a smaller mesh has no room for
 /// many insertions at once. From here on, point `j` belongs to context `(j - FIRST_ROUND) mod contexts`.

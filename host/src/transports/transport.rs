@@ -105,9 +105,9 @@ pub trait Transport {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
-    /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
-    /// meanwhile: the answers of [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those of two
-    /// jobs for each and of one more.
+    /// [`submit`](Transport::submit) never waits until answers are received. The transport must keep what comes
+    /// meanwhile: the answers to [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those to two
+    /// jobs for each engine and to one more.
     pub takes_ahead: bool,
     /// Most jobs under way at a time on a device of one engine, if commands may be sent ahead: 2 on a bus. More hide
     /// the round trip of a network; the transport must keep the answers of so many.
