@@ -13,12 +13,12 @@ pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
 ///
 /// Implement this trait to connect a simulator or another bus, and hand your type to
 /// [`Device::from_transport`](crate::Device::from_transport). A plain transport needs a [`name`](Self::name) and two
-/// more methods, [`submit`](Self::submit) and [`receive`](Self::receive); [`receive_in_pieces`] does
-/// most of the latter.
+/// more methods, [`submit`](Self::submit) and [`receive`](Self::receive); [`receive_in_pieces`] does most of the
+/// latter.
 ///
 /// A transport carries whole commands and whole answers, in their order, and leaves it to the session to check them.
-/// After an error commands and answers are out of step, and the session refuses further
-/// work, unless [`recover`](Self::recover) helps.
+/// After an error commands and answers are out of step, and the session refuses further work, unless
+/// [`recover`](Self::recover) helps.
 pub trait Transport {
     /// Short name for reports and errors, such as `model` or `sim:full`.
     fn name(&self) -> String;
@@ -147,8 +147,8 @@ impl Default for Capabilities {
 pub struct DeviceClocks {
     /// Clocks up to now.
     pub now: u64,
-    /// Clocks up to the word that was received last; `None` before the first. The device may be far ahead
-    /// of the words received.
+    /// Clocks up to the word that was received last; `None` before the first. The device may be far ahead of the words
+    /// received.
     pub answer: Option<u64>,
 }
 
