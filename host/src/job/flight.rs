@@ -139,7 +139,7 @@ impl Carrier<'_> {
         }
     }
 
-    /// How the records of a group are read.
+    /// The form in which the records of a group are read.
     pub(crate) fn read_form(&self, group: &Group) -> ReadForm {
         ReadForm::of(group.sent(), self.channel.capabilities(), self.identity.features)
     }
