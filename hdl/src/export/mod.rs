@@ -172,8 +172,8 @@ pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<
     })
 }
 
-/// The whole Verilog of a core, or of a chip of several engines, behind a stream link with beats of 64 or 128 bits: the
-/// device, and around it the ANSI wrapper [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME).
+/// The whole Verilog of a core behind a stream link with beats of 64 or 128 bits: the device, and around it
+/// the ANSI wrapper [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME).
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///

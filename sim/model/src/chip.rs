@@ -76,10 +76,7 @@ impl ChipModel {
     }
 
     /// The same chip with the runs that the hardware has so far, if it is a single engine: `Locate`, `Interpolate`,
-    /// `Nearest`, `InsertAs` and `Delete`. Its identity offers these.
-    ///
-    /// # Panics
-    /// As [`ClockModel::with_questions`] does.
+    /// `Nearest` and `InsertAs`. Its identity offers these.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         if let [only] = &mut self.engines[..] {

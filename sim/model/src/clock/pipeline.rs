@@ -94,8 +94,8 @@ impl Pipeline {
 
 /// Reads a record, takes its lock if asked to, and evaluates the predicates.
 fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
-    // L7: a record that is read while it is being written is torn, and a new record counts only when its commit has
-    // ended.
+    // L7: a record that is read while it is being written is torn, and a new record counts only when
+    // its commit has ended.
     let is_torn = was.write.valid && was.write.id == visit.record;
     let is_written =
         visit.record < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
