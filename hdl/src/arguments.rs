@@ -30,8 +30,8 @@ pub(crate) enum Command {
     /// Make the bitstream of a board, and a report of its clock and its cells.
     ///
     /// The command exports the design, synthesises it, places and routes it with several seeds, and packs the fastest.
-    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
-    /// that meets its clock.
+    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream that meets its
+    /// clock.
     Board(Box<BoardArguments>),
     /// Count the cells of cores of many sizes in many families of FPGAs.
     ///
@@ -157,7 +157,8 @@ pub(crate) enum LinkName {
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f\n  \
-                  incircle-hdl board ecpix-5 --link udp --ip 10.0.0.7/24 --mac 02:00:00:00:00:07 --out build/ecpix-5-udp")]
+                  incircle-hdl board ecpix-5 --link udp --ip 10.0.0.7/24 --mac 02:00:00:00:00:07 \
+                  --out build/ecpix-5-udp")]
 pub(crate) struct BoardArguments {
     /// Name of the board: ulx3s-85f, colorlight-i5 or ecpix-5.
     #[arg(

@@ -129,7 +129,7 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     })
 }
 
-/// The whole Verilog of a core of one engine with runs, which answers questions about its mesh and inserts into it: the
+/// The whole Verilog of a core of one engine with runs, which answers questions about its mesh and changes it: the
 /// core, and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
@@ -152,8 +152,8 @@ fn engines(config: Config, name: &str) -> Result<String, ExportError> {
     }
 }
 
-/// The whole Verilog of a core behind a serial link: the device, and around it
-/// the ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
+/// The whole Verilog of a core, or of a chip of several engines, behind a serial link: the device, and around it the
+/// ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///
@@ -215,8 +215,8 @@ pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<St
     })
 }
 
-/// The whole Verilog of a core behind a UDP link: the device, and around it
-/// the ANSI wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
+/// The whole Verilog of a core, or of a chip of several engines, behind a UDP link: the device, and around it the ANSI
+/// wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///

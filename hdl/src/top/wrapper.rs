@@ -132,14 +132,14 @@ pub fn serial_wrapper(device: &str, with_probe: bool) -> String {
     around(SERIAL_TOP_NAME, [&SERIAL_PORTS, &[]], device, with_probe)
 }
 
-/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with
-/// beats of `beat_bits` bits.
+/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with beats of `beat_bits`
+/// bits.
 pub fn stream_wrapper(device: &str, beat_bits: usize, with_probe: bool) -> String {
     around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], device, with_probe)
 }
 
-/// Interfaces of the modules inside. A pin has the name of an interface and of a signal in
-/// it: `command_valid` is `command$valid`.
+/// Interfaces of the modules inside. A pin has the name of an interface and of a signal in it: `command_valid` is
+/// `command$valid`.
 const INTERFACES: [&str; 5] = ["command", "response", "s_axis", "m_axis", "s_axi"];
 
 /// The port of the inner module to which a pin is connected.

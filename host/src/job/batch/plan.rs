@@ -103,7 +103,7 @@ pub(super) struct Plan {
     most_of_team: u32,
     /// Points that the device holds.
     capacity: usize,
-    /// Most points of jobs that share the memory.
+    /// The most points that jobs which share the memory have together.
     most_shared: usize,
 }
 
@@ -123,9 +123,9 @@ impl Plan {
         Self { most_shared: self.most_shared.min(points), ..self }
     }
 
-    /// Whether jobs of this many points may share the memory: with some size of teams, as many of them as fit side by
-    /// side take no longer than one after another. On a device of 8,192 points and 16 contexts that is so up to 4,096
-    /// points, of which 2 fit; without teams up to 1,224 points, of which 6 fit.
+    /// Whether jobs of this many points may share the memory: with some size of teams, as many such jobs as fit side by
+    /// side take no longer than the same jobs one after another. On a device of 8,192 points and 16 contexts that is so
+    /// up to 4,096 points, of which 2 fit; without teams up to 1,224 points, of which 6 fit.
     pub(super) fn shares(&self, points: usize) -> bool {
         let exclusive = self.exclusive(points).0;
         (1..=self.most_of_team).any(|contexts| {

@@ -1,5 +1,5 @@
-//! Divisions fit the device and are the cheapest there are, and the formulas agree with the clocks
-//! that the model counts.
+//! Divisions fit the device and are the cheapest there are, and the formulas agree with the clocks that the model
+//! counts.
 
 use incircle_protocol::{Config, FULL, LARGE, SMALL};
 use proptest::prelude::*;
