@@ -162,6 +162,6 @@ fn cores_with_runs_that_were_not_built_are_refused_with_a_sentence() {
         assert!(!SimDevice::has_living(config));
         let error = SimDevice::living(config).expect_err("not built");
         assert!(matches!(error, SimError::NoRuns { .. }), "{error}");
-        assert!(error.to_string().contains("with runs: choose one of small"), "{error}");
+        assert!(error.to_string().contains("with runs: choose small, or the back end clock"), "{error}");
     }
 }
