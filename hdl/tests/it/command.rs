@@ -63,6 +63,59 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
 }
 
 #[test]
+fn options_of_another_module_are_refused() {
+    let stream = |top: &str| format!("--config tiny {top}--width 128");
+    for (arguments, sentence) in [
+        (stream(""), "--width is for --top stream: choose it, or leave out --width"),
+        (stream("--top serial "), "--width is for --top stream: choose it, or leave out --width"),
+        (
+            "--config dual --clock-hz 5".to_owned(),
+            "--clock-hz is for --top serial and --top udp: choose one of them, or",
+        ),
+        ("--config tiny --top stream --fifo-bytes 4096".to_owned(), "--fifo-bytes is for --top serial and --top udp: "),
+        ("--config tiny --ip 1.2.3.4/8".to_owned(), "--ip is for --top udp: choose it, or leave out --ip"),
+        ("--config tiny --top serial --mac 02:00:00:00:00:07".to_owned(), "--mac is for --top udp: "),
+        ("--config tiny --udp-port 7".to_owned(), "--udp-port is for --top udp: "),
+        ("--config tiny --rgmii-delay 0".to_owned(), "--rgmii-delay is for --top udp: "),
+        ("--config tiny --top stream --rgmii-clock-delay 3".to_owned(), "--rgmii-clock-delay is for --top udp: "),
+        (
+            "--config tiny --top udp --rgmii-delay gmii --rgmii-clock-delay 3".to_owned(),
+            "--rgmii-clock-delay is for the pins of RGMII, and --rgmii-delay gmii makes those of GMII",
+        ),
+    ] {
+        let (output, file) = export(&arguments, "another_module.v");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {told}");
+        assert!(told.starts_with("incircle-hdl: ") && told.contains(sentence), "{arguments}: {told}");
+        assert_eq!(told.lines().count(), 1, "{arguments}: {told}");
+        assert!(!file.exists(), "{arguments}");
+    }
+}
+
+#[test]
+fn what_is_no_number_is_refused_with_the_bounds() {
+    for (arguments, sentence) in [
+        ("--points 4294967296 --contexts 3", "write a whole number from 4 to 16384"),
+        ("--points abc --contexts 3", "write a whole number from 4 to 16384"),
+        ("--points 64 --contexts -1", "write a whole number from 1 to 24"),
+        ("--points 64 --contexts 3 --engines -1", "write a whole number from 1 to 4"),
+        ("--points 64 --contexts 3 --ring 1e1", "write a whole number from 3 to 64"),
+        ("--config tiny --top serial --fifo-bytes 4k", "write a whole number from 2048 to 32768"),
+        ("--config tiny --top serial --clock-hz -125000000", "write a whole number from 921600 to 500000000"),
+        ("--config tiny --top stream --width -64", "a beat of a stream has 64 or 128 bits"),
+        ("--config tiny --top udp --udp-port 65536", "write a whole number from 1 to 65535"),
+        ("--config tiny --top udp --rgmii-clock-delay 128", "write a number of taps from 0 to 127"),
+        ("--config tiny --top udp --rgmii-delay -1", "write a number of taps from 0 to 127, or gmii"),
+    ] {
+        let (output, file) = export(arguments, "no_number.v");
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {told}");
+        assert!(told.contains(sentence), "{arguments}: {told}");
+        assert!(!file.exists(), "{arguments}");
+    }
+}
+
+#[test]
 fn options_of_a_link_need_a_core() {
     for option in ["--width=128", "--clock-hz=128", "--fifo-bytes=128", "--living"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_incircle-hdl"));
