@@ -253,6 +253,15 @@ fn arguments_that_do_not_fit_the_core_are_told_before_any_row() {
     let scratch = Scratch::new();
     scratch.run("bench --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
     scratch.run("bench --backend clock --contexts 17").fails(2, &["17 contexts", "the 16 of the core full"]);
+    // The advice is one that the command accepts.
+    let run = scratch.run("bench uniform -n 10 --backend clock --contexts 17");
+    run.fails(2, &["choose fewer or --config large"]);
+    let run = scratch.run("bench uniform -n 10 --batch 2 --backend clock?config=quad --contexts 17");
+    run.fails(2, &["the 16 of the core quad", ": choose fewer, or config=large in the address of the back end"]);
+    let run = scratch.run("bench uniform -n 10 --batch 2 --backend clock?config=large --contexts 17").ok();
+    assert!(run.stdout.starts_with("clock large, 17 contexts;"), "{run:?}");
+    let run = scratch.run("bench uniform -n 10 --batch 2 --backend clock?config=large --contexts 25");
+    run.fails(2, &["the 24 of the core large", "): choose fewer\n"]);
     // Only distinct points count: 20000 points fall onto 5000 places.
     let run = scratch.run("bench box -n 20000 --backend clock").ok();
     assert!(run.stdout.starts_with("clock full,"), "{run:?}");
