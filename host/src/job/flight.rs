@@ -144,6 +144,16 @@ impl Carrier<'_> {
         ReadForm::of(group.sent(), self.channel.capabilities(), self.identity.features)
     }
 
+    /// Number of engines that work side by side: one, if the link takes one command at a time.
+    pub(crate) fn engines_at_once(&self) -> usize {
+        let goes_ahead = self.channel.capabilities().takes_ahead && self.channel.takes_any_order();
+        if goes_ahead {
+            self.identity.engines as usize
+        } else {
+            1
+        }
+    }
+
     /// Most loads under way at a time.
     fn most_sent(&self) -> usize {
         match self.identity.engines {

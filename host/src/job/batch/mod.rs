@@ -66,8 +66,9 @@ impl<'b> Batch<'b> {
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let has_teams = self.carrier.identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
-        let plan =
-            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.most_shared());
+        let plan = Plan::new(self.contexts, self.carrier.identity.capacity, has_teams)
+            .sharing_at_most(self.most_shared())
+            .on_engines(self.carrier.engines_at_once());
         let (small, mut exclusive) = self.divide(&plan);
         let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;

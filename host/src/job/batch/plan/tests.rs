@@ -258,6 +258,17 @@ fn parts_are_halves_only_where_that_saves_clocks() {
 }
 
 #[test]
+fn a_small_batch_goes_to_all_engines() {
+    let groups = |engines, jobs| {
+        let parts = Plan::new(16, 2048, true).on_engines(engines).divide(&vec![500; jobs]);
+        parts.iter().map(|part| part.jobs()).collect::<Vec<_>>()
+    };
+    assert_eq!([groups(1, 8), groups(4, 8), groups(4, 4)], [vec![4; 2], vec![2; 4], vec![1; 4]]);
+    // A batch that gives every engine its fill is divided as for one engine.
+    assert_eq!(groups(4, 16), groups(1, 16));
+}
+
+#[test]
 fn meshes_that_the_device_cannot_keep_are_not_put_side_by_side() {
     let plan = |kept| Plan::new(FULL.contexts, FULL.points, true).sharing_at_most(kept);
     assert_eq!(plan(usize::MAX).divide(&[1000; 8]), [Part::Group { jobs: 8, contexts: 2 }]);
