@@ -218,7 +218,7 @@ impl ClockModel {
         now.starter.clock(&was, &wires, &self.tables, &mut self.memory, self.defect);
         self.ring.clock(wires.head_is_taken, wires.outcome.as_ref(), &self.memory);
         let takes_new = wires.solo_inserts && self.memory.kept(was.solo.vertex()).is_none();
-        now.commit.clock(&was, wires.head, &mut self.memory, takes_new, wires.seeds);
+        now.commit.clock(&was, wires.head, &mut self.memory, takes_new, wires.seeds, wires.holds);
         self.tables.clock(&wires, &mut self.memory);
         self.memory.clock(&was, &wires);
         self.release.clock(&wires, &mut self.memory, self.config, self.defect);

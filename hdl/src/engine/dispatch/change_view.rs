@@ -6,7 +6,8 @@
 //! Latency: none, the block is combinational.
 
 use crate::engine::types::{
-    ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, FillEnd, Outcome, SoloProgress, Start, VertexId,
+    Arrival, ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, FillEnd, Moving, Outcome, SoloProgress,
+    Start, VertexId,
 };
 use rust_hdl_core::prelude::*;
 
@@ -23,7 +24,12 @@ pub struct ChangeView {
     pub contexts: Signal<In, ContextState>,
     /// A context that starts without an item, or with an item that it tries again.
     pub start: Signal<In, Start>,
-    /// A deletion whose last write is requested; and an item that ends with its hole.
+    /// The visit that completes is one of a deletion, or of a move whose vertex is in the mesh; it ends a move in place;
+    /// and a run of moves is under way.
+    pub finds: Signal<In, Bit>,
+    pub moved: Signal<In, Arrival>,
+    pub moving: Signal<In, Moving>,
+    /// A deletion whose last write is requested; and a hole that is full, which ends no item of a move, or flat.
     pub erased: Signal<In, Committed>,
     pub fill_end: Signal<In, FillEnd>,
     pub events: Signal<Out, ChangeEvents>,
@@ -43,12 +49,17 @@ impl Logic for ChangeView {
         self.events.next.committed_context = self.job.val().context;
         self.events.next.committed_vertex = self.job.val().vertex;
         self.erased_job.next = self.erased.val().job;
-        if self.erased.val().valid {
+        self.events.next.finds = self.finds.val();
+        self.events.next.moves_in_place = self.moved.val().came;
+        self.events.next.puts_out = self.erased.val().valid & self.moving.val().runs;
+        self.events.next.put_out_context = self.erased_job.val().context;
+        if self.erased.val().valid & (!self.moving.val().runs) {
             self.events.next.commit_ends = true;
             self.events.next.committed_context = self.erased_job.val().context;
             self.events.next.committed_vertex = self.erased_job.val().vertex;
         }
-        self.events.next.fill_ends = self.fill_end.val().valid;
+        self.events.next.fill_ends =
+            self.fill_end.val().valid & (self.fill_end.val().is_flat | (!self.moving.val().runs));
         self.events.next.fill_is_flat = self.fill_end.val().valid & self.fill_end.val().is_flat;
         self.events.next.fill_context = self.fill_end.val().context;
         self.events.next.fill_vertex = self.fill_end.val().vertex;

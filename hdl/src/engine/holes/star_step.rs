@@ -3,7 +3,8 @@
 //! 1. A record of the star asks for the record outside, and for the next record of its chain, unless that is the one
 //!    which the other chain visits or has visited last. A ring that would be longer than the list drains.
 //! 2. A visit that meets a foreign lock makes the attempt drain (M4), or is made again (M5).
-//! 3. The star is over when its last visit completes.
+//! 3. The star is over when its last visit completes. If the vertex moves, and may keep all its edges, the last edge is
+//!    tested (M12); else the hole opens. A vertex on the hull keeps none.
 //!
 //! Latency: none, the block is combinational.
 
@@ -21,6 +22,10 @@ pub struct StarStep {
     pub is_outside: Signal<In, Bit>,
     pub is_foreign: Signal<In, Bit>,
     pub is_awaited: Signal<In, Bit>,
+    /// The visit is one of a move; the vertex has its new place already; its edges stay as far as the visit can tell.
+    pub moves: Signal<In, Bit>,
+    pub stays: Signal<In, Bit>,
+    pub keeps: Signal<In, Bit>,
     /// The number of entries that a ring can have, a constant.
     pub ring_capacity: Signal<In, RingCount>,
     pub held: Signal<In, Star>,
@@ -33,11 +38,15 @@ pub struct StarStep {
     pub outside: Signal<Out, TriangleId>,
     pub next_place: Signal<Out, RingEntry>,
     /// The visit brings an entry of the ring; it aborts the attempt; or the star is over, and the attempt has failed
-    /// (`fails`) or the hole opens.
+    /// (`fails`), or the last edge is tested (`closes`), or the hole opens.
     pub settles: Signal<Out, Bit>,
     pub aborts: Signal<Out, Bit>,
     pub fails: Signal<Out, Bit>,
+    pub closes: Signal<Out, Bit>,
     pub opens: Signal<Out, Bit>,
+    /// A record of the star counts; the visit may close the star.
+    pub goes_round: Signal<Out, Bit>,
+    pub may_close: Signal<Out, Bit>,
     is_live: Signal<Local, Bit>,
     counts: Signal<Local, Bit>,
     is_right: Signal<Local, Bit>,
@@ -58,6 +67,8 @@ pub struct StarStep {
     is_last: Signal<Local, Bit>,
     entry: Signal<Local, RingEntry>,
     fails_now: Signal<Local, Bit>,
+    keeps_all: Signal<Local, Bit>,
+    is_kept: Signal<Local, Bit>,
     one: Signal<Local, RingCount>,
     none: Signal<Local, RingCount>,
     one_place: Signal<Local, RingEntry>,
@@ -124,11 +135,23 @@ impl Logic for StarStep {
         self.is_last.next = self.is_star.val() & (self.left_after.val() == self.none.val());
         self.fails_now.next = self.held.val().drains | self.refused.val() | self.overflows.val();
         self.fails.next = self.is_last.val() & self.fails_now.val();
-        self.opens.next = self.is_last.val() & (!self.fails_now.val());
+        self.keeps_all.next = self.held.val().keeps & self.keeps.val();
+        self.is_kept.next =
+            self.moves.val() & (self.stays.val() | (self.keeps_all.val() & (!self.held.val().has_infinite)));
+        if self.turned.val().infinite2 & (!self.stays.val()) {
+            self.is_kept.next = false;
+        }
+        self.closes.next = self.is_last.val() & (!self.fails_now.val()) & self.is_kept.val();
+        self.opens.next = self.is_last.val() & (!self.fails_now.val()) & (!self.is_kept.val());
+        self.goes_round.next = self.counts.val() & (!self.is_outside.val());
+        self.may_close.next = self.moves.val() & self.is_outside.val() & (self.outstanding.val() == self.one.val());
 
         self.after.next = self.held.val();
         self.after.next.outstanding = self.left_after.val();
         self.after.next.drains = self.fails_now.val();
+        if self.counts.val() {
+            self.after.next.keeps = self.keeps_all.val();
+        }
         self.after.next.is_too_long = self.held.val().is_too_long | self.overflows.val();
         if self.turned.val().took {
             self.after.next.logged = self.logged.val() + self.one.val();

@@ -45,4 +45,8 @@ pub enum Defect {
     LeavesTheRingOpen,
     /// M8: a free record gets no mark and no link, and keeps the triangle that it was.
     LeavesFreeRecordsUnmarked,
+    /// M12: a move writes the point alone without a look at the edges.
+    MovesWithoutLook,
+    /// M14: a point that is read while it is being written counts as valid.
+    ReadsTheTornPoint,
 }

@@ -2,3 +2,5 @@
 
 mod hole_fill;
 mod hole_records;
+mod kept_edges;
+mod moved_vertex;
