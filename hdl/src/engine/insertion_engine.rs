@@ -17,8 +17,8 @@ use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, Moving, NearVerdict,
-    Position, RecordRead, Start, Verdict, VertexId, Write,
+    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, Moving,
+    NearVerdict, Position, RecordRead, Start, Verdict, VertexId, Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
@@ -242,8 +242,7 @@ impl Logic for InsertionEngine {
             self.insertions.deletes[i].next = self.deletes[i].val();
             self.insertions.issued[i].next = self.pipeline.issued[i].val();
             self.insertions.turns_left[i].next = self.pipeline.turns_left[i].val();
-            self.pipeline.deletes[i].next =
-                self.insertions.hole_runs[i].val() & (!self.solo.progress.val().is_at_work);
+            self.pipeline.deletes[i].next = self.insertions.hole_runs[i].val() & (!self.solo.progress.val().is_at_work);
             self.insertions.moving[i].next = self.moving[i].val();
             self.insertions.sides[i].next = self.pipeline.sides[i].val();
             self.pipeline.moving[i].next = self.moving[i].val();
@@ -253,7 +252,10 @@ impl Logic for InsertionEngine {
                 self.pipeline.arrival.next = self.insertions.moved[i].val();
             }
             self.pipeline.test_vertices[i].next = self.insertions.test_vertices[i].val();
-            self.fetches[i].next = self.pipeline.fetches[i].val();
+            // Fetches and writes of points share a port.
+            self.fetches[i].next = self.pipeline.fetches[i].val()
+                | self.insertions.moves[i].val()
+                | (self.insertions.hole_runs[i].val() & self.launch_stores[i].val());
             self.fetched[i].next = self.pipeline.fetched.val();
             self.erases[i].next = self.insertions.erases[i].val();
             self.returns[i].next = self.insertions.returns[i].val();

@@ -6,9 +6,9 @@ use super::commit::CommitPath;
 use super::dispatch::{ChangeView, Dispatcher};
 use super::holes::{HoleMerge, Holes};
 use super::types::{
-    Arrival, Bundle, Carried, ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow, Limits, LockClear,
-    Moving, SeedProgress, SoloProgress, SoloStart, Start, TestVertices, TriangleId, Upcoming, VertexId, Visit, VisitEvents,
-    Write,
+    Arrival, Bundle, Carried, ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow,
+    Limits, LockClear, Moving, SeedProgress, SoloProgress, SoloStart, Start, TestVertices, TriangleId, Upcoming,
+    VertexId, Visit, VisitEvents, Write,
 };
 use crate::predicate::Sides;
 use incircle_protocol::Config;

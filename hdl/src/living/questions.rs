@@ -32,8 +32,8 @@ use super::run_port::RunPort;
 use super::types::{Item, ItemNumber, Launch, Part};
 use crate::commands::{AnswerSource, CommandSink};
 use crate::engine::types::{
-    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, Moving, NearVerdict, Position, Push,
-    Start, TriangleId, VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
+    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, Moving, NearVerdict, Position,
+    Push, Start, TriangleId, VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::predicate::{Point, Sides};
@@ -181,8 +181,8 @@ impl Logic for Questions {
         if self.is_question.val() {
             self.may_launch.next = !self.step.asks.val();
         }
-        self.launches.next = (self.line.waits.val() | (self.queues.waits.val() & self.parts.has_room.val()))
-            & self.may_launch.val();
+        self.launches.next =
+            (self.line.waits.val() | (self.queues.waits.val() & self.parts.has_room.val())) & self.may_launch.val();
         self.begins_item.next = self.launches.val() & (!self.line.waits.val());
         self.queues.launches.next = self.begins_item.val();
         self.line.begins.next = self.begins_item.val();

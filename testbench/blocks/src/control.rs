@@ -11,8 +11,8 @@ use incircle_hdl::commands::{
 use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,
     FreshIds, HoleFill, HoleRecords, InnerList, JobQueue, KeptEdges, Latencies, LatencyBucket, LatencyRange,
-    MovedVertex, NextPoint, NextVisits, PlanTable, Priorities, PushPort, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId,
-    Starter, VisitCase, Watchdog, WideCounter,
+    MovedVertex, NextPoint, NextVisits, PlanTable, Priorities, PushPort, Release, RingReader, Seeder, Solo, SoloVisit,
+    SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 
 /// Name of the root module and Verilog of each block.

@@ -4,8 +4,8 @@ use incircle_protocol::{Config, SMALL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::engine::{
-    Issue, LinkWrite, MovedStar, NearCorner, NearLogic, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline,
-    VisitReader, WritePort,
+    Issue, LinkWrite, MovedStar, NearCorner, NearLogic, RecordWrite, SeedWrites, VerdictLogic, VisitJudge,
+    VisitPipeline, VisitReader, WritePort,
 };
 use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
 

@@ -384,10 +384,13 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "foreign_locks_of_stars_are_ignored",
         pieces: &[
             piece("refused = @;", "is_live & is_foreign & (~is_awaited)", "1'b0"),
-            piece("counts = @;", "is_live & (~is_foreign)", "is_live & (~is_awaited)"),
+            piece("counts = @;", "is_live & (~is_foreign) & (~is_torn)", "is_live & (~is_awaited)"),
         ],
     },
-    Fault { name: "nobody_waits_at_a_star", pieces: &[piece("again = @;", "is_live & is_awaited", "1'b0")] },
+    Fault {
+        name: "nobody_waits_at_a_star",
+        pieces: &[piece("again = @;", "is_live & (is_awaited | is_torn)", "1'b0")],
+    },
     Fault {
         name: "locks_of_a_star_are_released_too_soon",
         pieces: &[piece(
@@ -435,8 +438,9 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     },
     Fault {
         name: "torn_points_count",
-        pieces: &[piece("torn2$d = @;", "written1$q[(64'h0)+:(1)] & is_written", "1'b0")],
+        pieces: &[piece("torn2$d = @ |", "(written1$q[(64'h0)+:(1)] & is_written)", "1'b0")],
     },
+    Fault { name: "fetch_beside_a_write_counts", pieces: &[piece("| @;\n        torn3$d", "meets_write1$q", "1'b0")] },
     Fault { name: "point_of_a_move_is_not_written", pieces: &[piece("if (@) begin", "insertions$moves$0", "1'b0")] },
     Fault {
         name: "commit_writes_beside_a_hole",

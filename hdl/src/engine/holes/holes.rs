@@ -216,8 +216,7 @@ impl Logic for Holes {
         self.hole.verdict.next = self.verdict.val();
         self.hole.best_is_left.next = self.turns_left.val();
         self.hole.is_test.next = self.kind.is_test.val();
-        self.hole.opens.next =
-            self.step.opens.val() | (self.kind.is_last_edge.val() & (!self.ends_in_place.val()));
+        self.hole.opens.next = self.step.opens.val() | (self.kind.is_last_edge.val() & (!self.ends_in_place.val()));
         self.hole.star.next = self.step.after.val();
         self.fill.came.next = self.hole.came.val();
         self.fill.pushes.next = self.pushes.val();
@@ -263,7 +262,7 @@ impl Logic for Holes {
         self.effects.held.next = self.store.held.val();
         self.effects.after.next = self.step.after.val();
         self.effects.settles.next = self.step.settles.val();
-        self.effects.revisits.next = self.step.revisits.val();
+        self.effects.waits.next = self.step.waits.val();
         self.effects.aborts.next = self.step.aborts.val();
         self.effects.fails.next = self.step.fails.val();
         self.effects.ends_in_place.next = self.ends_in_place.val();

@@ -20,9 +20,9 @@ pub struct StarOutcome {
     /// The star before and after the visit.
     pub held: Signal<In, Star>,
     pub after: Signal<In, Star>,
-    /// The visit brings an entry of the ring; it is made again; it aborts the attempt; the attempt has failed.
+    /// The visit brings an entry of the ring; it waits for a lock; it aborts the attempt; the attempt has failed.
     pub settles: Signal<In, Bit>,
-    pub revisits: Signal<In, Bit>,
+    pub waits: Signal<In, Bit>,
     pub aborts: Signal<In, Bit>,
     pub fails: Signal<In, Bit>,
     /// The visit ends a move in place.
@@ -65,7 +65,7 @@ impl Logic for StarOutcome {
         self.outcome.next.will_retry = self.fails.val() & (!self.ends_item.val());
         self.outcome.next.hands_over = self.ends.val();
         self.outcome.next.asks_for_priority = self.aborts.val();
-        self.outcome.next.waits = self.revisits.val();
+        self.outcome.next.waits = self.waits.val();
         self.outcome.next.returns_priority = self.ends_item.val();
         self.outcome.next.overflows = false;
         self.outcome.next.duplicate = self.ends_item.val();

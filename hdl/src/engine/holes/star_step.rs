@@ -2,7 +2,8 @@
 //!
 //! 1. A record of the star asks for the record outside, and for the next record of its chain, unless that is the one
 //!    which the other chain visits or has visited last. A ring that would be longer than the list drains.
-//! 2. A visit that meets a foreign lock makes the attempt drain (M4), or is made again (M5).
+//! 2. A visit that meets a foreign lock makes the attempt drain (M4), or is made again (M5). So is a record of the star
+//!    with a point that was torn (M14).
 //! 3. The star is over when its last visit completes. If the vertex moves, and may keep all its edges, the last edge is
 //!    tested (M12); else the hole opens. A vertex on the hull keeps none.
 //!
@@ -32,6 +33,8 @@ pub struct StarStep {
     pub after: Signal<Out, Star>,
     /// The visit is made again; the record outside is asked for, and the next record of the chain (`goes_on`).
     pub revisits: Signal<Out, Bit>,
+    /// The visit is made again because it waits for a lock.
+    pub waits: Signal<Out, Bit>,
     pub looks_outside: Signal<Out, Bit>,
     pub goes_on: Signal<Out, Bit>,
     pub onward: Signal<Out, TriangleId>,
@@ -48,6 +51,7 @@ pub struct StarStep {
     pub goes_round: Signal<Out, Bit>,
     pub may_close: Signal<Out, Bit>,
     is_live: Signal<Local, Bit>,
+    is_torn: Signal<Local, Bit>,
     counts: Signal<Local, Bit>,
     is_right: Signal<Local, Bit>,
     place: Signal<Local, RingEntry>,
@@ -97,9 +101,11 @@ impl Logic for StarStep {
 
         // M4, M5: a foreign lock makes the attempt drain, unless its context has the priority.
         self.is_live.next = self.is_star.val() & (!self.held.val().drains);
-        self.again.next = self.is_live.val() & self.is_awaited.val();
+        self.is_torn.next = self.turned.val().again & (!self.is_foreign.val()) & (!self.is_outside.val());
+        self.waits.next = self.is_live.val() & self.is_awaited.val();
+        self.again.next = self.is_live.val() & (self.is_awaited.val() | self.is_torn.val());
         self.refused.next = self.is_live.val() & self.is_foreign.val() & (!self.is_awaited.val());
-        self.counts.next = self.is_live.val() & (!self.is_foreign.val());
+        self.counts.next = self.is_live.val() & (!self.is_foreign.val()) & (!self.is_torn.val());
         self.revisits.next = self.again.val();
         self.aborts.next = self.refused.val();
         self.settles.next = self.counts.val() & self.is_outside.val();

@@ -6,7 +6,8 @@
 //!    star. A visit outside, with place 0 or the mark 32 in `after`, keeps its corners.
 //! 2. The test of the last edge, which turns its record, does not lock it and has the mark 64 in `cavity_record`, is
 //!    judged by the new place, too.
-//! 3. The point of a vertex that is read at the edge at which it is written is arbitrary: the visit is made again (M14).
+//! 3. The point of a vertex that is read at the edge at which it is written is arbitrary, and so is a point that is
+//!    fetched beside a write, because both use one port: the visit is made again (M14).
 //! 4. A chain has one visit in flight, so its carried vertex stays until the visit has read it.
 //!
 //! Latency: 2 clocks from a visit with its record to its corners and the point, 3 to `turned_after`.
@@ -33,8 +34,9 @@ pub struct MovedStar {
     pub valid: Signal<In, Bit>,
     pub visit: Signal<In, Visit>,
     pub record: Signal<In, Record>,
-    /// A point that is written at this edge.
+    /// A point that is written at this edge; and the visit is a test that fetches a point.
     pub arrival: Signal<In, Arrival>,
+    pub test_fetches: Signal<In, Bit>,
     /// The vertex memory is asked for the carried vertex.
     pub fetches: Signal<Out, Bit>,
     pub fetch_id: Signal<Out, VertexId>,
@@ -59,6 +61,7 @@ pub struct MovedStar {
     written1: DFF<Arrival>,
     goes_round1: DFF<Bit>,
     is_moved1: DFF<Bit>,
+    meets_write1: DFF<Bit>,
     context2: DFF<ContextId>,
     is_moved2: DFF<Bit>,
     /// Two clocks after a visit: the slot of the vertex that moves; and the point of its record was torn.
@@ -96,7 +99,7 @@ impl Logic for MovedStar {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, context1, record1, written1, goes_round1, is_moved1, context2, is_moved2);
-        dff_setup!(self, clock, swaps0, swaps1, swaps2, torn2, torn3);
+        dff_setup!(self, clock, swaps0, swaps1, swaps2, torn2, torn3, meets_write1);
         clock!(self, clock, targets, vertices, inserting, left, right);
         self.targets.write_address.next = self.start.val().context;
         self.targets.write_data.next = self.moving.val().target;
@@ -143,6 +146,7 @@ impl Logic for MovedStar {
         self.record1.d.next = self.record.val();
         self.written1.d.next = self.arrival.val();
         self.goes_round1.d.next = self.goes_round.val();
+        self.meets_write1.d.next = self.arrival.val().came & (self.goes_round.val() | self.test_fetches.val());
         self.is_moved1.d.next = (!self.is_out.val()) & (self.visit.val().locks | self.is_last_edge.val());
 
         // The clock after that finds the slot of the vertex that moves.
@@ -153,7 +157,7 @@ impl Logic for MovedStar {
         self.is_written.next = (self.record1.q.val().v0 == self.written1.q.val().id)
             | (self.record1.q.val().v1 == self.written1.q.val().id)
             | (self.record1.q.val().v2 == self.written1.q.val().id);
-        self.torn2.d.next = self.written1.q.val().came & self.is_written.val();
+        self.torn2.d.next = (self.written1.q.val().came & self.is_written.val()) | self.meets_write1.q.val();
         self.torn3.d.next = self.torn2.q.val();
         self.context2.d.next = self.context1.q.val();
         self.is_moved2.d.next = self.is_moved1.q.val();

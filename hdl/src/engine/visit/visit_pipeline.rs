@@ -296,6 +296,7 @@ impl Logic for VisitPipeline {
             self.moved[i].visit.next = self.reader.visit_at_record.val();
             self.moved[i].record.next = self.triangles.record.val();
             self.moved[i].arrival.next = self.arrival.val();
+            self.moved[i].test_fetches.next = self.test[i].fetches.val();
             self.moved[i].corners.next = self.vertices.corners.val();
             self.moved[i].fetched.next = self.vertices.fetched.val();
             self.reader.stored_corners.next = self.moved[i].corners_after.val();

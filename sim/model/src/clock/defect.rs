@@ -47,6 +47,6 @@ pub enum Defect {
     LeavesFreeRecordsUnmarked,
     /// M12: a move writes the point alone without a look at the edges.
     MovesWithoutLook,
-    /// M14: a point that is read while it is being written counts as valid.
+    /// M14: a point that is read or fetched while one is being written counts as valid.
     ReadsTheTornPoint,
 }

@@ -54,11 +54,7 @@ impl Pipeline {
     /// or the one opposite the record before in the star of a vertex that moves.
     pub(super) fn fetches(&self) -> bool {
         let read = self.stages[(self.head + STAGES - RECORD_STAGES) % STAGES];
-        let is_fourth = |done: Completion| match done.visit.locks {
-            true => done.moves && done.visit.goes_round_star(),
-            false => done.finds && done.visit.is_hole_test(),
-        };
-        read.is_some_and(is_fourth)
+        read.is_some_and(|done| done.fetches())
     }
 
     /// Whether a visit reads the memories in this clock.
@@ -140,8 +136,13 @@ fn judge(done: &mut Completion, wires: &Wires, memory: &Memory, defect: Option<D
     let Completion { visit, record, .. } = *done;
     // M14: the point of a vertex that is read while it is being written is torn, too.
     let written = wires.new_point.map(|(vertex, _)| vertex).filter(|vertex| done.stored.v.contains(vertex));
-    assert!(written.is_none() || !visit.locks || done.foreign, "{visit:?} has the lock of a record whose point changes");
-    done.again |= written.is_some() && defect != Some(Defect::ReadsTheTornPoint);
+    assert!(
+        written.is_none() || !visit.locks || done.foreign,
+        "{visit:?} has the lock of a record whose point changes"
+    );
+    // Fetches and writes of points share a port.
+    let is_torn = written.is_some() || wires.new_point.is_some() && done.fetches();
+    done.again |= is_torn && defect != Some(Defect::ReadsTheTornPoint);
     // The star of a vertex that moves is judged for its new place.
     let is_moved = done.moves && (visit.locks || visit.is_last_edge());
     let p = if is_moved { memory.target[visit.context] } else { memory.position[visit.context] };

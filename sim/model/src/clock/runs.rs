@@ -196,7 +196,7 @@ impl ClockModel {
             taken_out: wires.erased.filter(|_| wires.moves).map(|job| job.context),
             taken: wires.start.and_then(|start| start.id),
             launch: wires.launch,
-            fetches: self.pipeline.fetches(),
+            fetches: self.pipeline.fetches() || wires.moves && wires.new_point.is_some(),
             all_rest: was.contexts.rest,
             arrival: was.command.came.then(|| (was.command.came_id, self.memory.vertex(was.command.came_id))),
             arrived: was.command.arrived,

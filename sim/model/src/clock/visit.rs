@@ -176,6 +176,15 @@ pub(super) struct Completion {
 }
 
 impl Completion {
+    /// Whether the visit has a fourth point from the vertex memory: that of a test of four vertices, or the one opposite
+    /// the record before in the star of a vertex that moves.
+    pub(super) fn fetches(&self) -> bool {
+        match self.visit.locks {
+            true => self.moves && self.visit.goes_round_star(),
+            false => self.finds && self.visit.is_hole_test(),
+        }
+    }
+
     /// Whether the completion may ask for other visits, as all do but tests that find their edge final and visits
     /// outside a star. The last visit of a star that moves may ask for one more test (`is_last`).
     pub(super) fn may_ask(&self, finds: bool, is_last: bool) -> bool {

@@ -156,7 +156,8 @@ impl ClockModel {
         // every visit but a test that finds its edge final counts as asking. The pointer knows even less, and
         // waits at every completion.
         let lacks_port = wanted.is_some_and(|start| start.id.is_some() && was.command.came);
-        let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask(finds, self.is_last_of_star(&done)));
+        let lacks_queue =
+            outcome.is_some() && done.is_some_and(|done| done.may_ask(finds, self.is_last_of_star(&done)));
         let takes_point = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         let head = self.ring.head;
         let rests = was.contexts.rest;

@@ -7,7 +7,8 @@
 
 use incircle_model::{ClockModel, CommandModel, Inputs};
 use incircle_protocol::{
-    command_word, Clear, Config, InsertReport, Located, Meshes, Opcode, Outcome, RunKind, CORE_COORD_BITS, FULL, SMALL, TINY,
+    command_word, Clear, Config, InsertReport, Located, Meshes, Opcode, Outcome, RunKind, CORE_COORD_BITS, FULL, SMALL,
+    TINY,
 };
 use incircle_testbench::lockstep::{Fault, Job, Lockstep, Mismatch, Stalls, CHANGE_FAULTS};
 use incircle_testkit::{generate, Distribution, SplitMix64};
@@ -259,8 +260,7 @@ impl Rig {
         vertices.truncate(if is_single { 1 } else { self.random.below(most + 1) as usize });
         let is_clean = is_single || !self.random.once_in(4);
         let is_small = self.random.once_in(2);
-        let mut places: BTreeSet<u32> =
-            vertices.iter().filter_map(|vertex| self.living.get(vertex).copied()).collect();
+        let mut places: BTreeSet<u32> = vertices.iter().filter_map(|vertex| self.living.get(vertex).copied()).collect();
         let mut items = Vec::new();
         for vertex in vertices {
             let at = self.living[&vertex];
@@ -282,7 +282,8 @@ impl Rig {
         }
         if is_single && self.random.once_in(3) || !is_single && self.random.once_in(3) {
             let points = u64::from(self.config.points);
-            let vertex = [self.random.bits(32), points, self.random.below(points)][self.random.below(3) as usize] as u32;
+            let vertex =
+                [self.random.bits(32), points, self.random.below(points)][self.random.below(3) as usize] as u32;
             let to = place(&mut self.random, side);
             if !self.living.contains_key(&vertex) && (!is_clean || places.insert(to)) {
                 items.push([vertex, to]);

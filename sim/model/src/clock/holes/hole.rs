@@ -10,9 +10,9 @@
 //! star's record on the ring edge that begins at the apex. The ids of the two ends become free.
 
 use super::star::Star;
+use super::star::PLACES;
 use crate::clock::attempt::Attempt;
 use crate::clock::memory::Memory;
-use super::star::PLACES;
 use crate::clock::visit::{Bundle, Completion, Visit, LAST_EDGE};
 use crate::predicate::{finite_conflict, ghost_conflict, orient2d, Point};
 

@@ -86,6 +86,10 @@ impl Outcome {
         if !self.takes_lock(done, around, &mut state) {
         } else if done.visit.is_outside_star() {
             self.note_outside(done, &mut star, around);
+        } else if done.again {
+            // M14: the point of the record before was torn.
+            self.push = Some(Bundle::one(done.visit));
+            state.outstanding += 1;
         } else {
             self.go_round(done, &mut star, &mut state, around);
         }
@@ -189,6 +193,11 @@ impl Outcome {
 
     /// A test of four vertices of the ring has completed.
     fn hole_test(mut self, done: &Completion, hole: &Hole) -> Self {
+        // M14: a test whose point was torn says nothing.
+        if done.again {
+            (self.push, self.tests_on) = (Some(hole.test(self.context)), Some(*hole));
+            return self;
+        }
         let hole = hole.tested(done.replaces);
         match hole.apex {
             Some(_) => self.opens_hole = Some(hole),

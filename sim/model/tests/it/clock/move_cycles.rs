@@ -33,7 +33,16 @@ fn moved(points: &[[u32; 2]], percent: f64, random: &mut SplitMix64) -> Vec<(usi
 #[test]
 fn a_small_move_takes_fewer_cycles_than_planned() {
     let word = |[x, y]: [u32; 2]| x | y << 16;
-    for (percent, count) in [(2, 8_000), (5, 1_000), (5, 2_000), (5, 4_000), (5, 8_000), (10, 1_000), (10, 2_000), (10, 8_000)] {
+    for (percent, count, most) in [
+        (2, 8_000, 17.5),
+        (5, 1_000, 23.5),
+        (5, 2_000, 21.0),
+        (5, 4_000, 19.5),
+        (5, 8_000, 18.5),
+        (10, 1_000, 25.5),
+        (10, 2_000, 23.0),
+        (10, 8_000, 20.0),
+    ] {
         let mut points = generate(Distribution::Uniform, 8_000, 16, 1).expect("a set of this size");
         let mut model = ClockModel::new(FULL).unwrap().with_questions();
         let mut insert = vec![Clear::default().word(), command_word(Opcode::Insert), 8_000];
@@ -56,5 +65,6 @@ fn a_small_move_takes_fewer_cycles_than_planned() {
         }
         let cycles = clocks(&mut model, &run, 2 + 2 * order.len()) as f64 / order.len() as f64;
         println!("{count} items by {percent} %: a move takes {cycles:.2} cycles");
+        assert!(cycles < most, "{count} items by {percent} %: {cycles} cycles");
     }
 }

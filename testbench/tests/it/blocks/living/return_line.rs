@@ -28,10 +28,8 @@ fn vertices_go_back_in_the_order_in_which_they_came_out() {
         let item = [random.bits(24), random.bits(15), random.bits(32), random.bits(32)];
         let idle: Vec<usize> = (0..CONTEXTS).filter(|&context| items[context].is_none()).collect();
         let begins = Some(&idle).filter(|idle| !idle.is_empty() && flip(&mut random)).map(|idle| random.pick(idle));
-        let at_work: Vec<usize> =
-            (0..CONTEXTS).filter(|&context| matches!(items[context], Some((_, false)))).collect();
-        let out =
-            Some(&at_work).filter(|work| !work.is_empty() && !random.once_in(3)).map(|work| random.pick(work));
+        let at_work: Vec<usize> = (0..CONTEXTS).filter(|&context| matches!(items[context], Some((_, false)))).collect();
+        let out = Some(&at_work).filter(|work| !work.is_empty() && !random.once_in(3)).map(|work| random.pick(work));
         block.set("reset", reset);
         block.set("begins", begins.is_some());
         block.set("begun_context", begins.unwrap_or(0) as u64);

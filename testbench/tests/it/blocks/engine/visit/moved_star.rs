@@ -11,7 +11,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     MovedStar,
-    [moving, start, carried, valid, visit, record, arrival, corners, fetched, turned],
+    [moving, start, carried, valid, visit, record, arrival, test_fetches, corners, fetched, turned],
     [fetches, fetch_id, corners_after, is_moved, target, turned_after],
     clock
 );
@@ -75,6 +75,8 @@ fn stars_of_moves_are_judged_by_the_new_place() {
         let writes = random.once_in(4);
         let written = if flip(&mut random) { v[random.below(3) as usize] } else { random.bits(15) };
         block.set("arrival_came", writes);
+        let test_fetches = random.once_in(6);
+        block.set("test_fetches", test_fetches);
         block.set("arrival_id", written);
         let corners = [0; 3].map(|_| random.bits(32));
         let fetched = random.bits(32);
@@ -129,7 +131,7 @@ fn stars_of_moves_are_judged_by_the_new_place() {
             swapped: [0, 1, 2].map(|k| goes_round && v[k] == own.vertex),
             is_moved: !is_out && (locks || rotates && cavity_record & 64 != 0),
             target: own.target,
-            is_torn: writes && v.contains(&written),
+            is_torn: writes && (v.contains(&written) || goes_round || test_fetches),
         }));
         // The visits of two and of three clocks ago.
         if let Some(two) = wanted[1] {
