@@ -302,6 +302,8 @@ impl Logic for VisitPipeline {
             self.reader.stored_corners.next = self.moved[i].corners_after.val();
             self.moved[i].turned.next = self.reader.turned.val();
             self.turned_bits.next = self.moved[i].turned_after.val().into();
+            // Read after it is driven: in Verilog, an assignment above would take the bits before the mark.
+            self.turned_delay.data_in.next = self.turned_bits.val();
             if self.moved[i].fetches.val() {
                 self.vertices.fetch_id.next = self.moved[i].fetch_id.val();
             }
