@@ -53,6 +53,11 @@ fn main() {
             let source = ModelSource::new(&name, TOP, verilog).fast_clocks(true);
             builder = builder.model(source.optimisation(Optimisation::Fast));
         }
+        let name = format!("living_serial_{}", config.name);
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::serial_top_with_runs(config, board::board_link(config), false));
+            builder = builder.model(ModelSource::new(&name, SERIAL_TOP, verilog).optimisation(Optimisation::Fast));
+        }
     }
     for config in [SMALL, FULL] {
         let name = format!("serial_{}", config.name);

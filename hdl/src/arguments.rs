@@ -30,8 +30,8 @@ pub(crate) enum Command {
     /// Make the bitstream of a board, and a report of its clock and its cells.
     ///
     /// The command exports the design, synthesises it, places and routes it with several seeds, and packs the fastest.
-    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream
-    /// that meets its clock.
+    /// The median of the seeds must meet the clock. The exit code is 0 only if there is a bitstream that meets its
+    /// clock.
     Board(Box<BoardArguments>),
     /// Count the cells of cores of many sizes in many families of FPGAs.
     ///
@@ -65,7 +65,7 @@ pub(crate) struct ExportArguments {
     #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
     pub(crate) engines: u32,
     /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs and Delete. For cores
-    /// of one engine, without a link, and with at most 32 boundary edges in a list.
+    /// of one engine, alone or behind a serial link, with at most 32 boundary edges in a list.
     #[arg(long, requires = "core_size")]
     pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.
@@ -157,7 +157,8 @@ pub(crate) enum LinkName {
 
 #[derive(Args)]
 #[command(after_help = "Examples:\n  incircle-hdl board ulx3s-85f --out build/ulx3s-85f\n  \
-                  incircle-hdl board ecpix-5 --link udp --ip 10.0.0.7/24 --mac 02:00:00:00:00:07 --out build/ecpix-5-udp")]
+                  incircle-hdl board ecpix-5 --link udp --ip 10.0.0.7/24 --mac 02:00:00:00:00:07 \
+                  --out build/ecpix-5-udp")]
 pub(crate) struct BoardArguments {
     /// Name of the board: ulx3s-85f, colorlight-i5 or ecpix-5.
     #[arg(
@@ -183,6 +184,10 @@ pub(crate) struct BoardArguments {
     /// Configuration of the core. Default: the first core in the table of the board.
     #[arg(long, value_parser = config, conflicts_with = "all")]
     pub(crate) config: Option<Config>,
+    /// Give the core the commands for a mesh that lives. For cores of one engine behind the serial line; no report of
+    /// such a core is kept.
+    #[arg(long, conflicts_with_all = ["all", "table", "renew"])]
+    pub(crate) living: bool,
     /// Link between the core and its host.
     #[arg(long, value_enum, default_value = "serial", conflicts_with = "all")]
     pub(crate) link: LinkName,

@@ -31,6 +31,8 @@ pub enum Top {
     Core,
     /// The core with runs, with the same two streams.
     Living,
+    /// The core with runs behind a serial link.
+    LivingSerial(LinkConfig),
     /// The core behind a serial link.
     Serial(LinkConfig),
     /// The core behind a stream link with beats of this many bits.
@@ -70,6 +72,7 @@ pub fn file((config, top): (Config, Top)) -> PathBuf {
     let link = match top {
         Top::Core => "",
         Top::Living => "_living",
+        Top::LivingSerial(_) => "_living_serial",
         Top::Serial(_) => "_serial",
         Top::Stream(_) => "_stream",
         Top::Udp(..) => "_udp",
@@ -86,6 +89,9 @@ pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
     let (what, verilog) = match top {
         Top::Core => ("incircle core", export::core(config, with_probe)?),
         Top::Living => ("incircle core with runs", export::core_with_questions(config, with_probe)?),
+        Top::LivingSerial(link) => {
+            ("incircle core with runs behind a serial link", export::serial_top_with_runs(config, link, with_probe)?)
+        }
         Top::Serial(link) => ("incircle core behind a serial link", export::serial_top(config, link, with_probe)?),
         Top::Stream(beat_bits) => {
             ("incircle core behind a stream link", export::stream_top(config, beat_bits, with_probe)?)

@@ -35,14 +35,13 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
         ..
     } = arguments;
     let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts, engines });
+    let serial = LinkConfig { clock_hz, fifo_bytes: fifo_bytes.unwrap_or(SERIAL_FIFO_BYTES), silence_ms: SILENCE_MS };
     let top = match top {
         TopName::Core if living => Top::Living,
+        TopName::Serial if living => Top::LivingSerial(serial),
         _ if living => return Err(committed::WriteError::Export(ExportError::RunsBehindLink)),
         TopName::Core => Top::Core,
-        TopName::Serial => {
-            let fifo_bytes = fifo_bytes.unwrap_or(SERIAL_FIFO_BYTES);
-            Top::Serial(LinkConfig { clock_hz, fifo_bytes, silence_ms: SILENCE_MS })
-        }
+        TopName::Serial => Top::Serial(serial),
         TopName::Stream => Top::Stream(width),
         TopName::Udp => {
             let fifo_bytes = fifo_bytes.unwrap_or(UDP_FIFO_BYTES);
@@ -119,7 +118,8 @@ fn one_board(
     link: BoardLink,
     out: &Path,
 ) -> Result<(), BoardError> {
-    let say = |what: &str| complain(&format!("{}{} with {}: {what}", board.name, link.suffix(), config.name));
+    let runs = if arguments.living { " and runs" } else { "" };
+    let say = |what: &str| complain(&format!("{}{} with {}{runs}: {what}", board.name, link.suffix(), config.name));
     let report_file = match board.report(config, link.suffix()) {
         None if arguments.renew => return Err(BoardError::NoReport { board: board.name, config: config.name }),
         file => file.filter(|_| arguments.renew),
@@ -127,6 +127,7 @@ fn one_board(
     let request = Request {
         board,
         config,
+        has_runs: arguments.living,
         link,
         seeds: arguments.seeds,
         clock: arguments.clock.unwrap_or(Clock::UsualOrLess),

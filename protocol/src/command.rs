@@ -10,12 +10,12 @@ use crate::status::Status;
 /// A command word that does nothing and has no answer. Links whose beats hold several words fill the last beat with it.
 pub const PADDING: u32 = 0;
 
-/// The first word of a command, without the bits that only `Clear` uses.
+/// The first word of a command, without the bits that only `Clear` and `Triangles` use.
 pub const fn command_word(opcode: Opcode) -> u32 {
     (opcode as u32) << 24
 }
 
-/// The job that a `Clear` begins.
+/// The parameters of a job on a device: of all commands from this `Clear` up to the next one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Clear {
     /// Number of contexts that work from now on; 0 stands for all that an engine has.
@@ -108,7 +108,7 @@ pub const fn command_contexts(word: u32) -> u32 {
     word & 0xff
 }
 
-/// The number of meshes in the word of a `Clear`, which counts only in a batch: 0 for one for each context.
+/// The number of meshes in the word of a `Clear`, which counts only in a batch; 0 stands for a mesh for each context.
 pub const fn command_meshes(word: u32) -> u32 {
     word >> CLEAR_MESHES_SHIFT & MAX_SIDE_BY_SIDE
 }

@@ -44,18 +44,20 @@ pub const MAX_DELETE_RING: u32 = 32;
 /// Smallest number of boundary edges in a list: the three edges of the root.
 pub const MIN_RING: u32 = 3;
 
-/// Largest number of contexts: more would only hinder each other in any mesh that fits.
+/// Largest number of contexts: the core has a bit for each in sets of 24, and more would only hinder each other in any
+/// mesh that fits.
 pub const MAX_CONTEXTS: u32 = 24;
 /// Smallest number of contexts.
 pub const MIN_CONTEXTS: u32 = 1;
 /// The numbers of engines that a chip may have: the blocks between the streams and the engines are drawn for these.
 pub const ENGINES: [u32; 3] = [1, 2, 4];
 /// Number of words of commands that wait for an engine while it works, so that the commands behind a long `Insert` do
-/// not hold up those for other engines. Over the UDP link a mesh is read by up to 69 commands of three words each, so
-/// all of a job has room.
+/// not hold up those for other engines. Over the UDP link a mesh of 8,192 points is read by at most 69 commands of
+/// three words, so all commands behind the `Insert` have room.
 pub const ENGINE_QUEUE_WORDS: usize = 256;
 /// Number of points that context 0 inserts on its own, the first three included, because a smaller mesh has no room for
-/// many insertions at once. From here on, point `j` belongs to context `(j - FIRST_ROUND) mod contexts`.
+/// many insertions at once. From here on, point `j` belongs to context `(j - FIRST_ROUND) mod contexts`. In a batch the
+/// same holds for the points of each job and the contexts of its team.
 pub const FIRST_ROUND: u32 = 16;
 
 /// Number of clocks without the end of an insertion after which a core of this capacity reports `Stuck`.

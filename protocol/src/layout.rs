@@ -26,8 +26,8 @@ pub struct Identity {
     pub contexts: u32,
     /// Number of engines. Each has a memory of this capacity and takes whole jobs.
     pub engines: u32,
-    /// Number of boundary edges that a context's list holds. A point with a longer boundary becomes a
-    /// solo insertion, by flips.
+    /// Number of boundary edges that a context's list holds. A point with a longer boundary becomes a solo insertion,
+    /// by flips.
     pub ring_capacity: u32,
     /// The features that the device has beyond the commands of every device, a bit each:
     /// [`FEATURE_RUNS`](crate::FEATURE_RUNS), [`FEATURE_SHORT_IDS`](crate::FEATURE_SHORT_IDS), and one for each
@@ -193,8 +193,8 @@ impl Layout {
         }
     }
 
-    /// The words of a record, of which a narrow layout uses the first three. Only the narrow layout has
-    /// a place for `locked`.
+    /// The words of a record, of which a narrow layout uses the first three. Only the narrow layout has a place for
+    /// `locked`.
     pub const fn record_to_words(self, v: [u32; 3], n: [u32; 3], locked: bool) -> [u32; 6] {
         if self.record_words == 3 {
             let mut words = [0; 6];

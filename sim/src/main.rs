@@ -57,7 +57,7 @@ enum Task {
         #[arg(long)]
         fast: bool,
         /// Take the core small with runs, for a mesh that lives.
-        #[arg(long, requires = "fast")]
+        #[arg(long)]
         living: bool,
         /// Smallest ratio of real time to the board's time; by default it is measured, or 50 with `--fast`.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
@@ -127,7 +127,6 @@ enum Core {
 enum BoardKind {
     Pins,
     Quick,
-    Living,
 }
 
 /// The device behind the files of a card.
@@ -153,12 +152,8 @@ fn main() -> ExitCode {
         Task::ServeUdp { config, tap: Some(tap), .. } => run_tap(config.config(), &tap),
         Task::ServeUdp { listen, config, fault, fast, tap: None } => run_network(config.config(), listen, fault, fast),
         Task::Serve { link, config, fault, fast, living, slow } => {
-            let kind = match (fast, living) {
-                (_, true) => BoardKind::Living,
-                (true, false) => BoardKind::Quick,
-                (false, false) => BoardKind::Pins,
-            };
-            run(config.config(), kind, Service { link, faults: fault, slow: slow.unwrap_or(0) })
+            let kind = if fast { BoardKind::Quick } else { BoardKind::Pins };
+            run(config.config(), kind, living, Service { link, faults: fault, slow: slow.unwrap_or(0) })
         }
         Task::ServePcie { dir, config, fault, width, fast, null } => {
             let kind = if null {
@@ -260,13 +255,15 @@ fn run_card(
 }
 
 /// Serves a board. A ratio of 0 in the service is not chosen yet.
-fn run(config: Config, kind: BoardKind, mut service: Service) -> Result<(), Box<dyn Error>> {
+fn run(config: Config, kind: BoardKind, has_runs: bool, mut service: Service) -> Result<(), Box<dyn Error>> {
     let stops = stops()?;
-    let (mut board, what): (Box<dyn Board>, _) = match kind {
-        BoardKind::Pins => (Box::new(PinBoard::new(config)?), "at its pins"),
-        BoardKind::Quick => (Box::new(QuickBoard::new(config, board_link(config))?), "without the bits of its line"),
-        BoardKind::Living => {
-            (Box::new(QuickBoard::living(config, board_link(config))?), "with runs and without the bits of its line")
+    let link = board_link(config);
+    let (mut board, what): (Box<dyn Board>, _) = match (kind, has_runs) {
+        (BoardKind::Pins, false) => (Box::new(PinBoard::new(config)?), "at its pins"),
+        (BoardKind::Pins, true) => (Box::new(PinBoard::living(config)?), "with runs and at its pins"),
+        (BoardKind::Quick, false) => (Box::new(QuickBoard::new(config, link)?), "without the bits of its line"),
+        (BoardKind::Quick, true) => {
+            (Box::new(QuickBoard::living(config, link)?), "with runs and without the bits of its line")
         }
     };
     if service.slow == 0 {

@@ -81,8 +81,8 @@ pub enum BoardError {
     NoAddresses,
     /// The placed design misses the clock of the PHY, which cannot be lowered.
     #[error(
-        "{board} does not meet the {PORT_MHZ} MHz of its Ethernet port: the median of {} reaches {:.1} MHz; {} says more, \
-         and more --seeds may help",
+        "{board} does not meet the {PORT_MHZ} MHz of its Ethernet port: the median of {} reaches {:.1} MHz; {} says \
+         more, and more --seeds may help",
         seeds_in_words(*seeds),
         (10.0 * median_mhz).floor() / 10.0,
         report.display()

@@ -21,6 +21,9 @@ use std::path::{Path, PathBuf};
 /// Pattern of the core's cells in the synthesised board: the instance is called `core`.
 const CORE: &str = "c:device.*.core.*";
 
+/// Pattern of the cells of a core with runs, whose parts stand side by side in the instance `engines`.
+const CORE_WITH_RUNS: &str = "c:device.engines.*";
+
 /// Name of the file with the report.
 const REPORT: &str = "report.json";
 
@@ -42,6 +45,8 @@ pub struct Request<'a> {
     pub board: Board,
     /// Configuration of the core.
     pub config: Config,
+    /// Whether the core has runs, the commands for a mesh that lives.
+    pub has_runs: bool,
     /// The link between core and host.
     pub link: BoardLink,
     /// Number of seeds for the placer; the seeds are 1, 2 and so on.
@@ -107,7 +112,7 @@ impl Placed {
 pub fn build(request: &Request) -> Result<Report, BoardError> {
     let clocks = clocks(request)?;
     // Wrong parameters are told before any tool is fetched.
-    request.link.device(&request.board, request.config, clocks[0])?;
+    device(request, clocks[0])?;
     let (work, _lock) = workshop::take(request.out)?;
     let tools = Tools::find(request.tools, request.say)?;
     let versions = tools.versions(&work)?;
@@ -211,14 +216,22 @@ fn place(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> R
     Ok(Placed { clock_mhz, seeds, cells: Parts { core, shell, placed, available } })
 }
 
+/// The Verilog of the device for a clock.
+fn device(request: &Request, clock_mhz: u32) -> Result<String, BoardError> {
+    let Request { board, config, has_runs, link, .. } = request;
+    if *has_runs {
+        return link.device_with_runs(board, *config, clock_mhz);
+    }
+    link.device(board, *config, clock_mhz)
+}
+
 /// Exports the device and maps the board's top module; returns the cells of the core and of the whole design.
 fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> Result<(Cells, Cells), BoardError> {
     let board = request.board;
     let pll = board.pll(clock_mhz).ok_or_else(|| BoardError::form(work, "the PLL cannot make this clock"))?;
     let link = request.link;
-    let device = link.device(&board, request.config, clock_mhz)?;
     let written = work.join("device.v");
-    std::fs::write(&written, device).map_err(BoardError::file(&written))?;
+    std::fs::write(&written, device(request, clock_mhz)?).map_err(BoardError::file(&written))?;
     let shared = constraints().join("ecp5");
     let mut sources = vec!["device.v", "clock.v", "top.v"];
     sources.extend(link.source());
@@ -245,9 +258,10 @@ fn synthesise(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32)
         script += &format!("; script {file}");
     }
     script += "; write_json netlist.json";
+    let core = if request.has_runs { CORE_WITH_RUNS } else { CORE };
     for cell in readings::COUNTED {
         script += &format!("; tee -a {counts} select -count t:{cell}");
-        script += &format!("; tee -a {counts} select -count {CORE} t:{cell} %i");
+        script += &format!("; tee -a {counts} select -count {core} t:{cell} %i");
     }
     sources.extend(floorplan);
     let key = Key::default().text(&toolbox.versions.yosys).text(&script);
@@ -327,6 +341,7 @@ fn describe(request: &Request, placed: &Placed, tools: Versions) -> Report {
         ring: config.ring,
         contexts: config.contexts,
         engines: config.engines,
+        runs: request.has_runs,
         cells,
         serial,
         network,

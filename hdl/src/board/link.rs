@@ -5,7 +5,7 @@ use super::error::BoardError;
 use super::pll::MHZ;
 use super::port::Rgmii;
 use super::Board;
-use crate::export;
+use crate::export::{self, ExportError};
 use crate::top::UdpPins;
 use crate::udp::UdpParameters;
 use incircle_protocol::Config;
@@ -88,6 +88,17 @@ impl BoardLink {
                 let Rgmii { delay, clock_delay, .. } = board.port()?;
                 Ok(export::udp_top(config, parameters, UdpPins::Rgmii { delay, clock_delay }, false)?)
             }
+        }
+    }
+
+    /// The Verilog of the device that the top of a board holds, with runs.
+    ///
+    /// # Errors
+    /// If a parameter is out of range, or this link does not carry runs.
+    pub(super) fn device_with_runs(self, board: &Board, config: Config, clock_mhz: u32) -> Result<String, BoardError> {
+        match self {
+            Self::Serial => Ok(export::serial_top_with_runs(config, board.link(clock_mhz), false)?),
+            Self::Udp(_) => Err(ExportError::RunsBehindLink.into()),
         }
     }
 }

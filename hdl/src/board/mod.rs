@@ -170,8 +170,8 @@ impl Board {
         Pll::new(self.oscillator_hz, clock_mhz * MHZ)
     }
 
-    /// The file in `constraints/ecp5` with the places of block RAMs: the board has one of the largest devices, and there
-    /// is such a file for this core.
+    /// The file in `constraints/ecp5` with the places of block RAMs, if the board has one of the largest devices and
+    /// there is such a file for this core.
     fn floorplan(&self, config: Config) -> Option<String> {
         let name = format!("floorplan-{}.ys", config.name);
         let is_there = constraints().join("ecp5").join(&name).exists();

@@ -37,6 +37,9 @@ pub struct Report {
     pub contexts: u32,
     /// Number of engines of the core.
     pub engines: u32,
+    /// Whether the core has runs, the commands for a mesh that lives.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub runs: bool,
     /// The cells of the parts of the design.
     pub cells: Parts,
     /// The serial line of the board, if that is the link.

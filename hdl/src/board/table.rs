@@ -248,12 +248,7 @@ fn tools(report: &Report) -> String {
 fn details(rows: &[&Row]) -> String {
     let section = |(place, row): (usize, &&Row)| {
         let heading = if place == 0 { String::new() } else { format!("\n### With `{}`\n", row.core.config.name) };
-        let Some(measurement) = &row.measurement else {
-            return format!("{heading}\nNot placed.\n");
-        };
-        let readings: String =
-            readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
-        format!("{heading}{}\n| | |\n|---|---|\n{readings}", resources(&measurement.report.cells))
+        heading + &row.measurement.as_ref().map_or_else(|| "\nNot placed.\n".to_owned(), tables)
     };
     rows.iter().enumerate().map(section).collect()
 }
@@ -262,12 +257,15 @@ fn details(rows: &[&Row]) -> String {
 fn details_behind_ethernet(rows: &[&Row]) -> String {
     let sections = rows.iter().filter_map(|row| {
         let measurement = row.measurement.as_ref()?;
-        let readings: String =
-            readings(measurement).into_iter().map(|(name, value)| format!("| {name} | {value} |\n")).collect();
-        let heading = format!("\n### With `{}` behind Ethernet\n", row.core.config.name);
-        Some(format!("{heading}{}\n| | |\n|---|---|\n{readings}", resources(&measurement.report.cells)))
+        Some(format!("\n### With `{}` behind Ethernet\n{}", row.core.config.name, tables(measurement)))
     });
     sections.collect()
+}
+
+/// The two tables of a measurement: the cells, and the other figures.
+fn tables(measurement: &Measurement) -> String {
+    let rows = readings(measurement).map(|(name, value)| format!("| {name} | {value} |\n"));
+    format!("{}\n| | |\n|---|---|\n{}", resources(&measurement.report.cells), rows.concat())
 }
 
 /// The rows that say how much of the device the core and the shell take.
@@ -320,8 +318,8 @@ fn link(report: &Report) -> (&'static str, String) {
     }
     let of_network = |network: &Network| {
         format!(
-            "{} at `{}`, `{}`, UDP port {}, FIFO of {} bytes; data from the PHY delayed by {} taps of 25 ps, clock to the \
-             PHY by {}; Fmax of the seeds at the port {} MHz, 125 MHz needed",
+            "{} at `{}`, `{}`, UDP port {}, FIFO of {} bytes; data from the PHY delayed by {} taps of 25 ps, clock to \
+             the PHY by {}; Fmax of the seeds at the port {} MHz, 125 MHz needed",
             network.phy,
             network.ip,
             network.mac,

@@ -6,7 +6,7 @@
 //! 3. `stuck` is set when the first beat of an answer with the status `Stuck` is taken, and stays until a reset.
 //!
 //! Latency: 2 clocks from a word on offer to the stream. Two clocks pass between two answers, because the choice is
-//! made only while no answer passes: an engine whose answer ends would seem to offer the next one.
+//! made only while no answer passes: while the last beat passes, its engine would seem to offer another answer.
 
 use super::engine_choice::EngineChoice;
 use super::types::{EngineFlags, OfferedBeat};

@@ -1,7 +1,7 @@
 //! Chooses the next engine in turn: for a job, or for an answer.
 //!
-//! 1. The engines form a circle. The choice is the first engine behind `current` that is free and not stuck. If all
-//!    engines are stuck, it is the first that is free.
+//! 1. The engines form a circle. The search begins behind `current` and ends with `current` itself. The choice is the
+//!    first engine that is free and not stuck. If all engines are stuck, it is the first that is free.
 //!
 //! Latency: 1 clock.
 
@@ -15,8 +15,8 @@ pub struct EngineChoice {
     pub reset: Signal<In, Bit>,
     /// The engine behind which the search begins: that of the present job, or of the last answer.
     pub current: Signal<In, Bits<2>>,
-    /// The engine may be chosen: it owes no answer, or for the collector, it offers one (`free`). The engine has said
-    /// `Stuck`, or is not there (`stuck`).
+    /// The engine may be chosen (`free`): for the router, because it owes no answer; for the collector, because it
+    /// offers one. The engine has said `Stuck`, or is not there (`stuck`).
     pub free: Signal<In, EngineFlags>,
     pub stuck: Signal<In, EngineFlags>,
     /// The choice, if there is one.

@@ -1,4 +1,4 @@
-//! Gives each job to an engine: the words from a `Clear` up to the next one.
+//! Gives each job to an engine. A job is the words from a `Clear` up to the next one, also those of a batch.
 //!
 //! 1. A `Clear` goes to the next engine in turn that owes no answer and has not said `Stuck`; if all engines have said
 //!    so, to one that owes no answer. It waits while there is none. All other words follow the `Clear` before them;

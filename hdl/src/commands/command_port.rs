@@ -2,7 +2,7 @@
 //!
 //! 1. `command_ready` depends on registers only and does not wait for `command_valid`.
 //! 2. A point is taken when the one before has been stored. The fourth point waits until the core knows whether the
-//!    first three span a triangle.
+//!    first three span a triangle; in a batch, the point behind the first three of each job waits.
 //! 3. A `Clear` with the number 0 asks for all contexts. A `Clear` for more contexts than the core has, or for a number
 //!    of jobs that does not divide them, changes nothing, and `clears` stays low.
 //! 4. The answer to a `Clear` is due when its numbers are checked and `clears` has ended.

@@ -13,8 +13,8 @@ pub struct PayloadWords {
     pub clock: Signal<In, Clock>,
     /// A reset drops the word.
     pub reset: Signal<In, Bit>,
-    /// An answer is about to begin (`prepares`); two clocks later it begins (`starts`) with a
-    /// payload of `length` words, at most 255.
+    /// An answer is about to begin (`prepares`); two clocks later it begins (`starts`) with a payload of `length`
+    /// words, at most 255.
     pub prepares: Signal<In, Bit>,
     pub starts: Signal<In, Bit>,
     pub length: Signal<In, Word>,

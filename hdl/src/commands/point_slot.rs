@@ -1,7 +1,7 @@
 //! Holds the point that has just come, gives it its id, and counts the points.
 //!
-//! 1. The registers of `arrival.id` and `arrival.point` load at every clock, so that no enable has to
-//!    reach all of them.
+//! 1. The registers of `arrival.id` and `arrival.point` load at every clock, so that no enable has to reach all of
+//!    them.
 //! 2. No point comes in the clock of `came`, because the counts are compared in that clock.
 //!
 //! Latency: 1 clock; 2 to `refused` and `some_refused`.

@@ -33,7 +33,7 @@ pub enum ExportError {
     Udp(UdpError),
     /// A width of beats with which no stream link can be built.
     BeatBits(u32),
-    /// A core with runs was asked for behind a link.
+    /// A core with runs was asked for behind a link that it cannot have.
     RunsBehindLink,
 }
 
@@ -44,7 +44,8 @@ impl fmt::Display for ExportError {
             Self::Link(error) => return error.fmt(f),
             Self::Udp(error) => return error.fmt(f),
             Self::RunsBehindLink => {
-                return f.write_str("a core with runs has no link yet: export it alone, with --top core");
+                return f
+                    .write_str("a core with runs has no link but the serial one: choose that one, or the core alone");
             }
             Self::BeatBits(given) => {
                 let [narrow, wide] = BEAT_BITS;
@@ -128,7 +129,7 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
     })
 }
 
-/// The whole Verilog of a core of one engine with runs, which answers questions about its mesh and inserts into it: the
+/// The whole Verilog of a core of one engine with runs, which answers questions about its mesh and changes it: the
 /// core, and the ANSI wrapper [`CORE_NAME`](crate::top::CORE_NAME) around it.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
@@ -151,8 +152,8 @@ fn engines(config: Config, name: &str) -> Result<String, ExportError> {
     }
 }
 
-/// The whole Verilog of a core behind a serial link: the device, and around it
-/// the ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
+/// The whole Verilog of a core, or of a chip of several engines, behind a serial link: the device, and around it the
+/// ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///
@@ -169,6 +170,23 @@ pub fn serial_top(config: Config, link: LinkConfig, with_probe: bool) -> Result<
         let inside = format!("{SERIAL_TOP_NAME}_logic");
         let device = connected(SerialTop::new(config, link)?, &inside)?;
         Ok(format!("{device}{}", serial_wrapper(&inside, with_probe)))
+    })
+}
+
+/// The whole Verilog of a core of one engine with runs behind a serial link: the link, the core, and around them
+/// the ANSI wrapper [`SERIAL_TOP_NAME`](crate::top::SERIAL_TOP_NAME).
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn serial_top_with_runs(config: Config, link: LinkConfig, with_probe: bool) -> Result<String, ExportError> {
+    on_large_stack(|| {
+        let names = [format!("{SERIAL_TOP_NAME}_link"), format!("{SERIAL_TOP_NAME}_core")];
+        let parts = ChipParts { link: &names[0], chip: &names[1], engines: 1, with_probe };
+        let core = connected(LivingCore::new(config)?, parts.chip)?;
+        let link = connected(SerialLink::with_runs(config, link)?, parts.link)?;
+        Ok(link + &core + &parts.serial())
     })
 }
 
@@ -197,8 +215,8 @@ pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<St
     })
 }
 
-/// The whole Verilog of a core behind a UDP link: the device, and around it
-/// the ANSI wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
+/// The whole Verilog of a core, or of a chip of several engines, behind a UDP link: the device, and around it the ANSI
+/// wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
 ///
 /// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
 ///

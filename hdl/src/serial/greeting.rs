@@ -7,8 +7,8 @@ use crate::commands::types::Word;
 use crate::leaf::Parameter;
 use crate::prelude::*;
 use incircle_protocol::{
-    Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_VERSION, FEATURE_SHORT_IDS,
-    GREETING_WORDS, LINK_MAGIC, LINK_VERSION, MAGIC, PROTOCOL_VERSION,
+    Config, Greeting as GreetingWords, Identity, LinkConfig, CORE_COORD_BITS, CORE_RUNS, CORE_VERSION,
+    FEATURE_SHORT_IDS, GREETING_WORDS, LINK_MAGIC, LINK_VERSION, MAGIC, PROTOCOL_VERSION,
 };
 
 const _: () = assert!(GREETING_WORDS == 13, "the kernel of this block lists the words of the greeting");
@@ -41,7 +41,17 @@ pub struct Greeting {
 impl Greeting {
     /// The greeting of a core of this configuration behind this link.
     pub fn new(config: Config, link: LinkConfig) -> Self {
-        let words = Self::words(config, link);
+        Self::with_features(config, link, FEATURE_SHORT_IDS)
+    }
+
+    /// The greeting of a core with runs of this configuration behind this link.
+    pub fn with_runs(config: Config, link: LinkConfig) -> Self {
+        Self::with_features(config, link, FEATURE_SHORT_IDS | CORE_RUNS)
+    }
+
+    /// The greeting of a core with these bits in [`Identity::features`].
+    fn with_features(config: Config, link: LinkConfig, features: u32) -> Self {
+        let words = Self::words(config, link, features);
         let word = |index: usize| Parameter::new(u64::from(words[index]).into());
         Self {
             word0: word(0),
@@ -62,7 +72,7 @@ impl Greeting {
     }
 
     /// The words of the greeting, in the order of `protocol/SERIAL.md`.
-    fn words(config: Config, link: LinkConfig) -> [u32; GREETING_WORDS] {
+    fn words(config: Config, link: LinkConfig, features: u32) -> [u32; GREETING_WORDS] {
         let LinkConfig { clock_hz, fifo_bytes, silence_ms } = link;
         let identity = Identity {
             magic: MAGIC,
@@ -73,7 +83,7 @@ impl Greeting {
             contexts: config.contexts,
             engines: config.engines,
             ring_capacity: config.ring,
-            features: FEATURE_SHORT_IDS,
+            features,
         };
         let max_rate = link.max_rate();
         GreetingWords {

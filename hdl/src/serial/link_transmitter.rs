@@ -80,6 +80,11 @@ impl LinkTransmitter {
     pub fn new(config: Config, link: LinkConfig) -> Self {
         Self { uart: UartTransmitter::new(), greeting: Greeting::new(config, link), ..Self::default() }
     }
+
+    /// The transmitter of a core with runs behind a link that has passed [`LinkConfig::check`].
+    pub fn with_runs(config: Config, link: LinkConfig) -> Self {
+        Self { greeting: Greeting::with_runs(config, link), ..Self::new(config, link) }
+    }
 }
 
 impl Logic for LinkTransmitter {

@@ -90,6 +90,14 @@ impl SerialLink {
             ..Self::default()
         })
     }
+
+    /// The serial link of a core with runs of this configuration, which names them in its greeting.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_runs(config: Config, link: LinkConfig) -> Result<Self, SerialError> {
+        Ok(Self { transmitter: LinkTransmitter::with_runs(config, link), ..Self::new(config, link)? })
+    }
 }
 
 impl Logic for SerialLink {

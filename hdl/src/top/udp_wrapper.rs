@@ -71,10 +71,11 @@ impl UdpPins {
             Self::Rgmii { .. } => format!(
                 "    wire port_clock = rx_clock;\n    wire rx_valid;\n    wire rx_error;\n    wire [7:0] rx_data;\n    \
                  wire tx_valid;\n    wire [7:0] tx_data;\n    {UDP_TOP_NAME}_rgmii_in pins_in (\n        \
-                 .clock(rx_clock),\n        .control(rx_ctl),\n        .pins(rxd),\n        .data_valid(rx_valid),\n        \
-                 .data_error(rx_error),\n        .data(rx_data)\n    );\n    {UDP_TOP_NAME}_rgmii_out pins_out (\n        \
-                 .clock(rx_clock),\n        .data_valid(tx_valid),\n        .data(tx_data),\n        \
-                 .clock_pin(tx_clock),\n        .control(tx_ctl),\n        .pins(txd)\n    );\n"
+                 .clock(rx_clock),\n        .control(rx_ctl),\n        .pins(rxd),\n        \
+                 .data_valid(rx_valid),\n        .data_error(rx_error),\n        .data(rx_data)\n    );\n    \
+                 {UDP_TOP_NAME}_rgmii_out pins_out (\n        .clock(rx_clock),\n        \
+                 .data_valid(tx_valid),\n        .data(tx_data),\n        .clock_pin(tx_clock),\n        \
+                 .control(tx_ctl),\n        .pins(txd)\n    );\n"
             ),
         }
     }

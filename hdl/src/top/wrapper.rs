@@ -132,14 +132,14 @@ pub fn serial_wrapper(device: &str, with_probe: bool) -> String {
     around(SERIAL_TOP_NAME, [&SERIAL_PORTS, &[]], device, with_probe)
 }
 
-/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with
-/// beats of `beat_bits` bits.
+/// The Verilog of the wrapper around the root module `device` of a core behind a stream link with beats of `beat_bits`
+/// bits.
 pub fn stream_wrapper(device: &str, beat_bits: usize, with_probe: bool) -> String {
     around(STREAM_TOP_NAME, [&stream_ports(beat_bits), &STREAM_UNUSED], device, with_probe)
 }
 
-/// Interfaces of the modules inside. A pin has the name of an interface and of a signal in
-/// it: `command_valid` is `command$valid`.
+/// Interfaces of the modules inside. A pin has the name of an interface and of a signal in it: `command_valid` is
+/// `command$valid`.
 const INTERFACES: [&str; 5] = ["command", "response", "s_axis", "m_axis", "s_axi"];
 
 /// The port of the inner module to which a pin is connected.
@@ -243,10 +243,10 @@ const BETWEEN: [(&str, &str, usize); 10] = [
     ("", "device_busy", 1),
 ];
 
-/// The modules of a chip of several engines behind a link.
+/// The modules of a chip of several engines, or of a core with runs, behind a link.
 #[derive(Clone, Copy)]
 pub struct ChipParts<'a> {
-    /// The root module of the link, and that of the engines.
+    /// The root module of the link, and that of the engines or of the core with runs.
     pub link: &'a str,
     pub chip: &'a str,
     pub engines: u32,
@@ -260,11 +260,17 @@ impl ChipParts<'_> {
         let probe = Probe { engines, is_shown: with_probe };
         let wires = BETWEEN.iter().map(|(_, name, width)| format!("    {};\n", declared("", name, *width).trim()));
         let streams = connections(&BETWEEN[1..9]);
+        // All that a core of one engine holds shows in its streams.
+        let (busy, idle) = match engines {
+            1 => ("", "    assign device_busy = 1'b0;\n"),
+            _ => ("        .is_busy(device_busy),\n", ""),
+        };
         wires.collect::<String>()
+            + idle
             + &probe.inside()
             + &format!(
-                "    {chip} engines (\n        .clock({clock}),\n        .reset(core_reset),\n{streams}        \
-                 .is_busy(device_busy),\n{}\n    );\n",
+                "    {chip} engines (\n        .clock({clock}),\n        .reset(core_reset),\n{streams}{busy}{}\n    \
+                 );\n",
                 probe.connections()
             )
     }

@@ -18,6 +18,10 @@ fn cores_and_chips_of_other_sizes_are_exported() {
     for (place, (arguments, modules)) in [
         ("--points 64 --contexts 3", &["module incircle_core ("][..]),
         ("--points 64 --contexts 3 --ring 8 --probe", &["module incircle_core (", "write_valid"]),
+        (
+            "--points 64 --contexts 3 --living --top serial",
+            &["incircle core with runs behind a serial link", "module incircle_serial_top (", "$questions"],
+        ),
         ("--points 64 --contexts 3 --living", &["incircle core with runs", "module incircle_core (", "$questions"]),
         ("--points 16 --contexts 2 --engines 2", &["module incircle_core (", "$router", "$slot1"]),
         ("--points 16 --contexts 2 --engines 4 --top stream", &["module incircle_stream_top (", "$slot3"]),
@@ -43,8 +47,9 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
         ("--points 64 --contexts 3 --engines 3", 1, "a chip cannot have 3 engines: choose 1, 2 or 4"),
         ("--points 64 --contexts 3 --ring 65", 1, "a boundary list cannot hold 65 edges"),
         ("--config dual --living", 1, "cannot have 2 engines: choose a configuration of one"),
-        ("--config small --living --top serial", 1, "a core with runs has no link yet: export it alone"),
-        ("--config small --living --top stream", 1, "with --top core"),
+        ("--config small --living --top stream", 1, "a core with runs has no link but the serial one"),
+        ("--config small --living --top udp", 1, "choose that one, or the core alone"),
+        ("--config dual --living --top serial", 1, "cannot have 2 engines: choose a configuration of one"),
         ("--points 64", 2, "--contexts"),
         ("--config full --engines 2", 2, "--config"),
         ("--config full --contexts 2 --engines 4", 2, "--config"),

@@ -48,8 +48,8 @@ impl Awaited {
         self.jobs.entry(tag).or_default().commands.push_back((opcode, words));
     }
 
-    /// Number of words of the payload of an answer that begins so; `None` if no command has such an answer, and the
-    /// engine is not one of `engines`.
+    /// Number of words of the payload of an answer that begins so; `None` if the next command of its job has no such
+    /// answer, or if the device, which has `engines` engines, has none of this number.
     pub(super) fn words_of(&self, [header, length]: AnswerHead, engines: u32) -> Option<usize> {
         let (opcode, words) = *self.jobs.get(&answer_tag(header))?.commands.front()?;
         if answer_opcode(header) != opcode as u8 || u32::from(answer_engine(header)) >= engines {

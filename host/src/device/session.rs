@@ -115,8 +115,8 @@ impl<'d> Session<'d> {
         Ok(solution)
     }
 
-    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte the
-    /// one that [`Session::triangulate_with`] gives.
+    /// Triangulates many sets of points in one call, as a batch. Each mesh is byte for byte the one that
+    /// [`Session::triangulate_with`] gives.
     ///
     /// Reach for a batch when there are many small jobs: a single small mesh has no room for many insertions at once,
     /// so a device works on several jobs side by side, each with a team of contexts. [`Options::contexts`] bounds their
@@ -262,8 +262,8 @@ impl<'d> Session<'d> {
         Ok(LivingSession::new(self.backend, self.identity, choices))
     }
 
-    /// Clocks of the device since it was opened; `None` unless the device is a simulated core,
-    /// whose clocks are counted.
+    /// Clocks of the device since it was opened; `None` unless the device is a simulated core, whose clocks are
+    /// counted.
     #[must_use]
     pub fn clocks(&self) -> Option<u64> {
         self.backend.clocks()

@@ -35,8 +35,8 @@ pub struct Counters {
     pub flips: u32,
     /// Visits that lock the root of a cavity and evaluate it again.
     pub root_visits: u32,
-    /// Visits made once more because a record was being written, a lock was held, or the context's own
-    /// commit was not finished.
+    /// Visits made once more because a record was being written, a lock was held, or the context's own commit was not
+    /// finished.
     pub revisits: u32,
     /// Attempts aborted because another context held a lock.
     pub aborts: u32,

@@ -1,8 +1,9 @@
-//! Carrying loads to a device: sending them, receiving and checking the answers, and trying once more
-//! after a passing fault.
+//! Carrying loads to a device: sending them, receiving and checking the answers, and trying once more after a passing
+//! fault.
 //!
-//! If the transport takes commands ahead, the commands of the next load are sent before the answers to the
-//! current one are received.
+//! If the transport takes commands ahead, the commands of the next load are sent before the answers to the current one
+//! are received. A device of several engines gets loads for all of them. Their answers may come in any order, and are
+//! taken in the order of the loads.
 
 use std::collections::VecDeque;
 
@@ -21,10 +22,11 @@ use crate::error::{DeviceFault, Error};
 use crate::limit::Limit;
 use incircle_geometry::Point;
 
-/// Most loads under way for each engine of several: one in the engine, one behind it. The device has one more under
-/// way, since a job waits at the device until some engine is free.
+/// Most loads under way for each engine of several: the engine works on one, while the answers to the load before it or
+/// the commands of the load after it are on their way. One more load is under way, because the device holds a job until
+/// some engine is free.
 const MOST_SENT: usize = 2;
-/// Most loads under way on a device that gives answers in any order: half of the tags.
+/// Most loads under way on any device: half of the tags.
 const MOST_TAGGED: usize = 128;
 
 /// An error, with the index of the job that it is about, if it is about one job.
@@ -65,7 +67,7 @@ impl Done {
     }
 }
 
-/// The loads under way, in the order in which they are answered.
+/// The loads under way, in the order in which their answers are taken.
 struct Flight {
     loads: VecDeque<Load>,
     /// Number of loads whose commands have been sent.
@@ -137,9 +139,19 @@ impl Carrier<'_> {
         }
     }
 
-    /// How the records of a group are read.
+    /// The form in which the records of a group are read.
     pub(crate) fn read_form(&self, group: &Group) -> ReadForm {
         ReadForm::of(group.sent(), self.channel.capabilities(), self.identity.features)
+    }
+
+    /// Number of engines that work side by side: one, if the link takes one command at a time.
+    pub(crate) fn engines_at_once(&self) -> usize {
+        let goes_ahead = self.channel.capabilities().takes_ahead && self.channel.takes_any_order();
+        if goes_ahead {
+            self.identity.engines as usize
+        } else {
+            1
+        }
     }
 
     /// Most loads under way at a time.
@@ -147,7 +159,7 @@ impl Carrier<'_> {
         match self.identity.engines {
             _ if !self.channel.capabilities().takes_ahead => 1,
             1 => self.channel.capabilities().jobs_ahead.clamp(1, MOST_TAGGED),
-            // A byte has the tags, and loads that were dropped keep theirs for a while.
+            // A tag has a byte, and a load that was dropped keeps its tag until its last answer has come.
             engines if self.channel.takes_any_order() => (MOST_SENT * engines as usize + 1).min(MOST_TAGGED),
             _ => 1,
         }
@@ -235,7 +247,7 @@ impl Carrier<'_> {
     }
 
     /// Puts the first load, over which this engine got stuck, behind all others, to be sent once more. The device gives
-    /// it to another engine. Fails if as many engines as there are got stuck over it.
+    /// it to another engine. Fails if that has happened to the load as often as there are engines.
     fn send_elsewhere(&mut self, flight: &mut Flight, engine: u32) -> Result<(), Error> {
         // The load stays in front until it is certain that it goes again: an error names the job in front.
         let Some(load) = flight.loads.front_mut() else {

@@ -40,7 +40,7 @@ pub(crate) enum Step {
 pub(crate) struct Load {
     pub(crate) group: Group,
     pub(crate) steps: Vec<Step>,
-    /// How its records are read.
+    /// The form in which its records are read.
     pub(crate) form: ReadForm,
     /// Whether the commands go one by one, so that a listener hears the progress between them.
     pub(crate) is_step_by_step: bool,

@@ -86,8 +86,8 @@ const INSERT_CHUNK: usize = 65_536;
 pub struct Options<'a> {
     /// Time limit for the whole job. `None` stands for [`Options::default_timeout`], stretched for a simulated device.
     pub timeout: Option<Duration>,
-    /// Order of insertion, for devices that insert points one after another; the CPU triangulator has an
-    /// order of its own.
+    /// Order of insertion, for devices that insert points one after another; the CPU triangulator has an order of its
+    /// own.
     pub order: Order,
     /// Listener that is called at the start of each stage and after every chunk.
     pub progress: Option<ProgressListener<'a>>,
@@ -95,8 +95,8 @@ pub struct Options<'a> {
     /// see [`Session::identity`](crate::Session::identity). `None` stands for all of them. In a batch this is an upper
     /// bound, and each job gets as many as make it faster.
     pub contexts: Option<u32>,
-    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is reported,
-    /// and cancellation noticed, between chunks.
+    /// Points of one `Insert` command, 65,536 by default; fewer than 3 count as 3. Progress is reported, and
+    /// cancellation noticed, between chunks.
     pub insert_chunk: usize,
 }
 

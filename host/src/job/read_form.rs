@@ -1,4 +1,5 @@
-//! How the records of a load are read: whole, or their vertices alone, with ids of as many bits as the job needs.
+//! The forms in which the records of a load are read: whole, or their vertices alone, with ids of as many bits as the
+//! job needs.
 
 use std::ops::Range;
 

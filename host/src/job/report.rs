@@ -55,8 +55,8 @@ pub struct Report {
     /// first word of the first part to the last triangle of the last. `None` for all other jobs, for an exclusive job
     /// on a device of several engines, and where the transport does not know the clocks.
     pub clocks: Option<u64>,
-    /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their
-    /// doubles or long integers.
+    /// The lattice of the points; `None` if they have none, and the CPU triangulator worked on their doubles or long
+    /// integers.
     pub lattice: Option<Lattice>,
     /// Bits of a coordinate of the device.
     pub coord_bits: u32,

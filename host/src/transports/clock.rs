@@ -1,5 +1,5 @@
-//! The core's model, clock by clock, as a transport: the answers, records and cycle counts of the
-//! core without a simulator.
+//! The core's model, clock by clock, as a transport: the answers, records and cycle counts of the core without a
+//! simulator.
 
 use std::collections::VecDeque;
 use std::time::Instant;

@@ -13,12 +13,12 @@ pub type AnswerHead = [u32; ANSWER_HEAD_WORDS];
 ///
 /// Implement this trait to connect a simulator or another bus, and hand your type to
 /// [`Device::from_transport`](crate::Device::from_transport). A plain transport needs a [`name`](Self::name) and two
-/// more methods, [`submit`](Self::submit) and [`receive`](Self::receive); [`receive_in_pieces`] does
-/// most of the latter.
+/// more methods, [`submit`](Self::submit) and [`receive`](Self::receive); [`receive_in_pieces`] does most of the
+/// latter.
 ///
 /// A transport carries whole commands and whole answers, in their order, and leaves it to the session to check them.
-/// After an error commands and answers are out of step, and the session refuses further
-/// work, unless [`recover`](Self::recover) helps.
+/// After an error commands and answers are out of step, and the session refuses further work, unless
+/// [`recover`](Self::recover) helps.
 pub trait Transport {
     /// Short name for reports and errors, such as `model` or `sim:full`.
     fn name(&self) -> String;
@@ -105,9 +105,9 @@ pub trait Transport {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Capabilities {
     /// Whether commands may be submitted before the answers to earlier ones are received. Set it only if
-    /// [`submit`](Transport::submit) never waits until answers are received: the transport must keep what comes
-    /// meanwhile: the answers of [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those of two
-    /// jobs for each and of one more.
+    /// [`submit`](Transport::submit) never waits until answers are received. The transport must keep what comes
+    /// meanwhile: the answers to [`jobs_ahead`](Self::jobs_ahead) jobs, and on a device of several engines those to two
+    /// jobs for each engine and to one more.
     pub takes_ahead: bool,
     /// Most jobs under way at a time on a device of one engine, if commands may be sent ahead: 2 on a bus. More hide
     /// the round trip of a network; the transport must keep the answers of so many.
@@ -147,8 +147,8 @@ impl Default for Capabilities {
 pub struct DeviceClocks {
     /// Clocks up to now.
     pub now: u64,
-    /// Clocks up to the word that was received last; `None` before the first. The device may be far ahead
-    /// of the words received.
+    /// Clocks up to the word that was received last; `None` before the first. The device may be far ahead of the words
+    /// received.
     pub answer: Option<u64>,
 }
 

@@ -115,8 +115,8 @@ impl CommandModel {
         })
     }
 
-    /// The same model with this many contexts, 1 to 255. In a batch it then takes that many jobs side by side, but its
-    /// points are still inserted one after the other.
+    /// The same model with this many contexts, 1 to 255. A batch may then have up to as many jobs, but its points are
+    /// still inserted one after the other.
     #[must_use]
     pub fn with_contexts(mut self, contexts: u32) -> Self {
         self.identity.contexts = contexts.clamp(1, 255);

@@ -15,8 +15,9 @@ use crate::models;
 /// Number of clocks after which a board that was reset has cleared its memories.
 const SETTLING: u64 = 100_000;
 
-/// Prefix that the build script puts before the name of a configuration.
+/// Prefixes that the build script puts before the name of a configuration, without and with runs.
 const SERIAL: &str = "serial_";
+const LIVING: &str = "living_serial_";
 
 /// A board at its pins. Every clock is simulated.
 #[derive(Debug)]
@@ -45,7 +46,18 @@ impl PinBoard {
     /// # Errors
     /// [`SimError::NoBoard`]: boards of this configuration were not translated when this crate was built.
     pub fn new(config: Config) -> Result<Self, SimError> {
-        let description = description(config)?;
+        Self::of(config, description(SERIAL, config)?)
+    }
+
+    /// A board with the core with runs of this configuration, and the same link.
+    ///
+    /// # Errors
+    /// [`SimError::NoBoard`]: boards of this configuration with runs were not translated when this crate was built.
+    pub fn living(config: Config) -> Result<Self, SimError> {
+        Self::of(config, description(LIVING, config)?)
+    }
+
+    fn of(config: Config, description: &'static ModelDescription) -> Result<Self, SimError> {
         let model = Model::new(description);
         let link = super::board::board_link(config);
         let mut board = Self {
@@ -111,11 +123,11 @@ impl PinBoard {
     }
 }
 
-/// The translated board of a configuration.
-fn description(config: Config) -> Result<&'static ModelDescription, SimError> {
-    let built = || models::NAMES.iter().filter_map(|name| name.strip_prefix(SERIAL)).collect::<Vec<_>>().join(", ");
+/// The translated board of a configuration, with the name that follows this prefix.
+fn description(prefix: &str, config: Config) -> Result<&'static ModelDescription, SimError> {
+    let built = || models::NAMES.iter().filter_map(|name| name.strip_prefix(prefix)).collect::<Vec<_>>().join(", ");
     let is_named = incircle_protocol::NAMED.contains(&config);
-    let found = is_named.then(|| models::find(&format!("{SERIAL}{}", config.name))).flatten();
+    let found = is_named.then(|| models::find(&format!("{prefix}{}", config.name))).flatten();
     found.ok_or_else(|| SimError::NoBoard { name: config.name, built: built() })
 }
 

@@ -82,19 +82,32 @@ fn random_changes_and_questions_agree_with_the_processor() {
 /// lost is asked for again, and made once.
 #[test]
 fn random_changes_over_a_bad_serial_line_agree_with_the_processor() {
-    let folder = std::env::temp_dir().join(format!("incircle-living-{}", std::process::id()));
+    let said = agrees_over_serial("bad", &["--fast", "--fault", "drop-frame=0.05,ber=1e-5,seed=4"], 20, 15);
+    assert!(!said.contains(" 0 faults"), "{said}");
+}
+
+/// The Verilog of the serial link and of the core with runs behind it, bit by bit.
+#[test]
+fn random_changes_at_the_pins_of_a_board_agree_with_the_processor() {
+    agrees_over_serial("pins", &[], 1000, 6);
+}
+
+/// Runs random changes and questions on a board that is started with these arguments, this many times slower than
+/// real, and returns what the board says in the end.
+fn agrees_over_serial(name: &str, arguments: &[&str], slow: u32, rounds: usize) -> String {
+    let folder = std::env::temp_dir().join(format!("incircle-living-{name}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     let link = folder.join("board");
-    let mut command = service::program(&["serve", "--fast", "--living", "--slow", "20"]);
-    command.args(["--fault", "drop-frame=0.05,ber=1e-5,seed=4", "--link"]).arg(&link);
+    let mut command = service::program(&["serve", "--living", "--slow", &slow.to_string()]);
+    command.args(arguments).arg("--link").arg(&link);
     let (child, line) = service::start(command);
     assert!(line.starts_with("ready: "), "{line}");
-    let mut device = Device::open(&format!("serial:{}?slow=20", link.display())).expect("the terminal");
+    let mut device = Device::open(&format!("serial:{}?slow={slow}", link.display())).expect("the terminal");
     let mut session = device.session().expect("a session");
     let mut mesh = session.living().expect("the core has enough runs");
     let mut host = Triangulation::new();
     let mut random = SplitMix64::new(32);
-    for _ in 0..15 {
+    for _ in 0..rounds {
         let [found, expected] = change(&mut random, 20, [&mut mesh, &mut host]);
         assert_eq!(found, expected);
         let places: Vec<Point> = (0..20).map(|_| point(&mut random, 20)).collect();
@@ -105,8 +118,8 @@ fn random_changes_over_a_bad_serial_line_agree_with_the_processor() {
     drop(device);
     let (status, said) = service::end(child, "-TERM");
     assert_eq!(status.code(), Some(0), "{said}");
-    assert!(!said.contains(" 0 faults"), "{said}");
     std::fs::remove_dir_all(folder).expect("a folder of our own");
+    said
 }
 
 #[test]

@@ -103,7 +103,8 @@ fn place(request: &SizesRequest, config: Config) -> Result<Option<Placed>, Board
     let say = |what: &str| (request.say)(&format!("{} on {}: {what}", size_name(config), board.name));
     let out = request.out.join(format!("{}-{}", board.name, size_name(config)));
     let (link, clock) = (BoardLink::Serial, Clock::Usual);
-    let placing = Request { board, config, link, seeds: 1, clock, out: &out, tools: request.tools, say: &say };
+    let placing =
+        Request { board, config, has_runs: false, link, seeds: 1, clock, out: &out, tools: request.tools, say: &say };
     let report = match build(&placing) {
         // A seed that misses the clock of the board is a figure like any other.
         Err(BoardError::Timing { report, .. }) => Report::read(&report)?,

@@ -21,8 +21,8 @@ pub struct Dispatcher {
     /// Reset and clear put all contexts to sleep.
     pub reset: Signal<In, Bit>,
     pub clears: Signal<In, Bit>,
-    /// Constants: the contexts that are built, and the number of clocks without a finished point
-    /// before the watchdog reports.
+    /// Constants: the contexts that are built, and the number of clocks without a finished point before the watchdog
+    /// reports.
     pub built_contexts: Signal<In, ContextSet>,
     pub patience: Signal<In, Clocks>,
     /// The rule by which points belong to contexts.

@@ -3,8 +3,8 @@
 //! 1. A context that is asleep and keeps its point is due when it has rested, no commit or release of it is due, and no
 //!    other context of its team has waited for long.
 //! 2. A context that is asleep and has no point is due when its next point has come and it may work.
-//! 3. No context is due while one asks for a solo insertion, because its point must not be tried again meanwhile. If
-//!    only one context works, it may be the context that starts at this edge, and is not due then.
+//! 3. No context is due while one asks for a solo insertion: that one keeps its point, which must not be tried again
+//!    meanwhile. If only one context works, it may be the context that starts at this edge, and is not due then.
 //!
 //! Latency: none, the block is combinational.
 
@@ -25,7 +25,8 @@ pub struct DueCheck {
     /// The pointer has gone round once; and its present round is one in which retries start (`rests_over`).
     pub is_planned: Signal<In, Bit>,
     pub rests_over: Signal<In, Bit>,
-    /// The first 16 points of the context's job are taken; no other context of its team has waited for long.
+    /// The team of the context is open, see [`OpenTeams`](super::OpenTeams); no other context of the team has waited
+    /// for long.
     pub is_open: Signal<In, Bit>,
     pub may_retry: Signal<In, Bit>,
     /// The only context that works may be the one that starts at this edge.

@@ -17,8 +17,8 @@
 //! Lock rules (see `docs/engine.md`): L1, a context whose attempt aborted rests until a fourth round of the pointer
 //! ([`DueCheck`]); L2, each team has one priority ([`Priorities`]); L3, when the context with the priority has met 8
 //! foreign locks, no other context of its team retries until its point is finished ([`Priorities`], [`DueCheck`]); L8,
-//! the first points of a job go to the first context of its team ([`DueCheck`], [`Starter`], [`NextPoint`]); L11, a
-//! walk starts in the mesh of its own job ([`NextPoint`]).
+//! the first points of a job go to the first context of its team ([`DueCheck`], [`OpenTeams`], [`Starter`],
+//! [`NextPoint`]); L11, a walk starts in the mesh of its own job ([`NextPoint`]).
 
 mod change_view;
 mod context_flags;

@@ -5,10 +5,10 @@
 //! 2. The first context of team `g` has the number `g`. It takes vertex `3g + 2` first, whose arrival completes the
 //!    first triangle, and then the points of its job before the 17th one by one (L8).
 //! 3. Point 16 of a job and all later ones are dealt to the contexts of its team in turn. So context `k` takes vertex
-//!    `16 jobs + k` and every one `contexts` later.
-//! 4. The flags `is_seed` (the vertex is the third of a first triangle) and `is_dealt` (the point is one of those
-//!    behind the first 16) are made when the vertex is chosen, a clock ahead of the sum: a comparison in front of the
-//!    sum would limit the clock of the core.
+//!    `16 jobs + k`, and from there on every `contexts`-th vertex.
+//! 4. The flags `is_seed` (the vertex is the third of a first triangle) and `is_dealt` (the point is none of the first
+//!    16) are made when the vertex is chosen, a clock ahead of the sum: a comparison in front of the sum would limit
+//!    the clock of the core.
 //!
 //! Latency: none, the block is combinational.
 
@@ -63,8 +63,8 @@ pub struct NextPoint {
     pub deal: Signal<In, Deal>,
     /// The context under the pointer.
     pub pointer: Signal<In, Pointer>,
-    /// The vertex that the context under the pointer takes first; if that is a third one, the one after it
-    /// (`first_dealt`).
+    /// The vertex that the context under the pointer takes first; if that is the third of a first triangle, the vertex
+    /// after it (`first_dealt`).
     pub first: Signal<Out, Plan>,
     pub first_dealt: Signal<Out, Bits<7>>,
     /// The context that the pointer has left, with the vertex that it takes; and the plan that follows.
@@ -98,7 +98,7 @@ impl Logic for NextPoint {
         self.narrow_turn.next = bit_cast::<7, 5>(self.pointer.val().turn);
         self.dealt_from.next = self.deal.val().dealt_from;
         self.first_dealt.next = self.dealt_from.val() + self.narrow_turn.val();
-        // L8: in the first round of its job, a context takes the points of the job one by one.
+        // L8: of the first 16 points of its job, the first context of a team takes one after another.
         self.from.next = self.passed.val().id;
         self.step.next = self.wide_jobs.val();
         if self.passed.val().is_dealt {

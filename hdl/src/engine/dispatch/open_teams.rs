@@ -1,7 +1,7 @@
-//! The teams whose contexts all work, because the first round of their job is over.
+//! The teams that are open: all their contexts may work, because the first 16 points of their job are taken (L8).
 //!
-//! 1. In the first round of the pointer (`planned`) every team is closed. A team opens when its first context takes
-//!    point 16 of its job (L8).
+//! 1. While the pointer goes round for the first time (`planned`), every team is closed. A team opens when its first
+//!    context takes point 16 of its job, which is the 17th.
 //!
 //! Latency: none to read; a team that opens is open from the next clock on.
 //!

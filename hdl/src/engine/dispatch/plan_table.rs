@@ -3,8 +3,8 @@
 //!
 //! 1. The table is never cleared. Until the pointer has gone round once, the first vertex of a context comes from its
 //!    number, and is written down.
-//! 2. The table is read without asking whether the context has had a point, because to choose one flag
-//!    of 24 takes long.
+//! 2. The table is read without asking whether the context has had a point, because to choose one flag of 24 takes
+//!    long.
 //!
 //! Latency: none to read; a write is read from the next clock on.
 //!

@@ -7,19 +7,20 @@
 //!    of a team has taken point 16 of its job, no other context of the team works (L8).
 //! 3. A start waits while the queue or the port of the vertex memory may be taken. While a start is due, the pointer
 //!    waits in every clock in which a visit completes, because the visits that follow are known late.
-//! 4. A walk starts at the root of the context's last attempt, or at the first record of its mesh if the context has
-//!    had no commit.
+//! 4. The walk of a retry starts at the root of the context's last attempt, and so does the walk to a new point if the
+//!    context has had a commit. Otherwise the walk starts at the first record of the context's mesh.
 //! 5. A context that asks for a solo insertion starts it when all contexts rest, none is at work, and the pointer has
 //!    passed the context.
-//! 6. In the first round of the pointer no context starts: `PlanTable` writes down the first vertex of each.
+//! 6. While the pointer goes round for the first time no context starts: `PlanTable` writes down the first vertex of
+//!    each.
 //! 7. The pointer is two contexts ahead. In the clock after it has stood at a context, the next vertex of that context
 //!    is there, and the starter decides whether the context is due and where it would start. In the clock after that
 //!    the context starts, unless the queue is taken.
 //!
 //! Latency: 2 clocks from the pointer to `starts`.
 //!
-//! There are two contexts. Context 0 takes vertex 2 when that has come, the first round is over and the queue is free.
-//! Then context 0 falls asleep, keeps its point, and retries from record 9 in the next fourth round:
+//! There are two contexts. Context 0 takes vertex 2 when that has come, the pointer has gone round once and the queue
+//! is free. Then context 0 falls asleep, keeps its point, and retries from record 9 in the next fourth round:
 //! ```text
 //! arrived           2  3  3  3  3  3  3  3  3  3  3  3  3  3  3  3
 //! came            ___/^^\_________________________________________
@@ -55,7 +56,7 @@ crate::packed! {
         pub context: ContextId,
         pub team: ContextId,
         pub id: VertexId,
-        /// The vertex `id` is one of the dealt ones, behind the first round; the context takes `plan` after it.
+        /// The vertex `id` is none of the first 16 of its job; the context takes `plan` after it.
         pub is_dealt: bool,
         pub plan: VertexId,
         /// The point that the context has.

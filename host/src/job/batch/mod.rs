@@ -50,7 +50,7 @@ pub(crate) struct Batch<'b> {
     /// Contexts that may work.
     contexts: u32,
     done: Done,
-    /// For each job that is left to the caller, the number of contexts that are to work on it.
+    /// For each job that is left to the caller, the number of contexts that are to work on it; `None` for the others.
     left: Vec<Option<u32>>,
 }
 
@@ -61,13 +61,14 @@ impl<'b> Batch<'b> {
     }
 
     /// Does the jobs of the batch, except those that must go one by one: very large jobs, and all exclusive jobs if the
-    /// transport takes nothing ahead. The second result has the number of contexts that pay for each job left over, and
-    /// `None` for all others.
+    /// transport takes nothing ahead. The second result has, for each job that is left to the caller, the number of
+    /// contexts with which it is expected to take the fewest clocks, and `None` for all others.
     pub(crate) fn run(mut self) -> Result<(Done, Vec<Option<u32>>), JobError> {
         let (jobs, options) = (self.carrier.jobs, self.carrier.options);
         let has_teams = self.carrier.identity.protocol_version >= FIRST_VERSION_WITH_TEAMS;
-        let plan =
-            Plan::new(self.contexts, self.carrier.identity.capacity, has_teams).sharing_at_most(self.most_shared());
+        let plan = Plan::new(self.contexts, self.carrier.identity.capacity, has_teams)
+            .sharing_at_most(self.most_shared())
+            .on_engines(self.carrier.engines_at_once());
         let (small, mut exclusive) = self.divide(&plan);
         let groups = self.group(&plan, small, &mut exclusive)?;
         let Self { mut carrier, mut done, left, .. } = self;
@@ -80,8 +81,9 @@ impl<'b> Batch<'b> {
         Ok((done, left))
     }
 
-    /// Most points of jobs that share the memory: those whose mesh the device keeps for the line while its core goes
-    /// on. Where the line may be slower than the core, they are also no more than short ids can number.
+    /// The most points that jobs which share the memory may have together, so that the device can keep their meshes for
+    /// the line while its core goes on. Where the line may be slower than the core and the device has short ids, the
+    /// ids must also be enough to number the points.
     fn most_shared(&self) -> usize {
         let carrier = &self.carrier;
         let capabilities = carrier.channel.capabilities();
@@ -135,8 +137,8 @@ impl<'b> Batch<'b> {
                     let dealt = rest.by_ref().take(jobs).map(|ordered| ordered.dealt(contexts));
                     groups.push(Group::sharing(dealt.collect(), contexts));
                 }
-                // The order at hand is for one context. The job is put in order again, for several,
-                // when its turn comes.
+                // The order at hand is for one context. The job is put in order again, for several, when its turn
+                // comes.
                 Part::Exclusive => {
                     if let Some(own) = rest.next() {
                         self.add_exclusive(plan, own.job, exclusive);

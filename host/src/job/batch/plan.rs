@@ -103,8 +103,10 @@ pub(super) struct Plan {
     most_of_team: u32,
     /// Points that the device holds.
     capacity: usize,
-    /// Most points of jobs that share the memory.
+    /// The most points that jobs which share the memory have together.
     most_shared: usize,
+    /// Number of devices of this kind that work side by side: the engines of a chip.
+    engines: usize,
 }
 
 impl Plan {
@@ -114,7 +116,7 @@ impl Plan {
         let contexts = contexts.max(1);
         let most_of_team = if has_teams { contexts } else { 1 };
         let capacity = capacity as usize;
-        Self { rounds: rounds(contexts), most_of_team, capacity, most_shared: capacity }
+        Self { rounds: rounds(contexts), most_of_team, capacity, most_shared: capacity, engines: 1 }
     }
 
     /// The same plan with at most `points` points in jobs that share the memory: those whose mesh the device can keep
@@ -123,9 +125,15 @@ impl Plan {
         Self { most_shared: self.most_shared.min(points), ..self }
     }
 
-    /// Whether jobs of this many points may share the memory: with some size of teams, as many of them as fit side by
-    /// side take no longer than one after another. On a device of 8,192 points and 16 contexts that is so up to 4,096
-    /// points, of which 2 fit; without teams up to 1,224 points, of which 6 fit.
+    /// The same plan for this many engines that work side by side; 0 counts as 1. A group then has at most the share of
+    /// an engine of all jobs, so that a small batch leaves no engine idle.
+    pub(super) fn on_engines(self, engines: usize) -> Self {
+        Self { engines: engines.max(1), ..self }
+    }
+
+    /// Whether jobs of this many points may share the memory: with some size of teams, as many such jobs as fit side by
+    /// side take no longer than the same jobs one after another. On a device of 8,192 points and 16 contexts that is so
+    /// up to 4,096 points, of which 2 fit; without teams up to 1,224 points, of which 6 fit.
     pub(super) fn shares(&self, points: usize) -> bool {
         let exclusive = self.exclusive(points).0;
         (1..=self.most_of_team).any(|contexts| {
@@ -167,7 +175,7 @@ impl Plan {
         self.exclusive(points).1
     }
 
-    /// Cuts a list of jobs into parts that the device does one after another. `lengths` are the distinct points of the
+    /// Cuts a list of jobs into parts that an engine does one after another. `lengths` are the distinct points of the
     /// jobs, the longest first, each from 1 to the capacity. Of all cuts whose parts fit, the result has the fewest
     /// clocks. O(jobs * contexts * log contexts).
     pub(super) fn divide(&self, lengths: &[usize]) -> Vec<Part> {
@@ -176,13 +184,14 @@ impl Plan {
         let mut best = vec![(0, Part::Exclusive); lengths.len() + 1];
         // Jobs of one length follow each other, so the cost of the last length is worth keeping.
         let mut kept = (0, 0);
+        let share = lengths.len().div_ceil(self.engines);
         for (first, &points) in lengths.iter().enumerate().rev() {
             if kept.0 != points {
                 kept = (points, self.exclusive(points).0);
             }
             let exclusive = (kept.1 + best[first + 1].0, Part::Exclusive);
             let groups = (1..=self.most_of_team).flat_map(|contexts| {
-                let groups = self.groups(&lengths[first..], contexts);
+                let groups = self.groups(&lengths[first..], contexts).take_while(move |&(jobs, _)| jobs <= share);
                 groups.map(move |(jobs, clocks)| (jobs, clocks, Part::Group { jobs, contexts }))
             });
             let groups = groups.map(|(jobs, clocks, part)| (clocks + best[first + jobs].0, part));

@@ -65,6 +65,22 @@ fn jobs_one_by_one_go_to_all_engines() {
 }
 
 #[test]
+fn a_small_batch_leaves_no_engine_idle() {
+    let mut random = Random(5);
+    let jobs: Vec<_> = (0..8).map(|_| random.points(500, 1 << 16)).collect();
+    let clocks = |engines, count| {
+        let mut device = Device::clock_model(Config { engines, ..QUAD }).expect("possible");
+        let mut session = device.session().expect("a session");
+        let before = session.clocks().expect("clocks");
+        session.triangulate_batch(&jobs[..count], &Options::default()).expect("meshes");
+        session.clocks().expect("clocks") - before
+    };
+    // Each engine gets two jobs. Beside one engine with two jobs, only the words of all share a stream.
+    let (one, four) = (clocks(1, 2), clocks(4, 8));
+    assert!(10 * four < 14 * one, "{one} {four}");
+}
+
+#[test]
 fn a_chip_is_quicker_by_the_number_of_its_engines() {
     let mut random = Random(4);
     let jobs: Vec<_> = (0..320).map(|_| random.points(100, 1 << 16)).collect();

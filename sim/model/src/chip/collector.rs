@@ -2,7 +2,7 @@
 //!
 //! Hardware twin: the block `AnswerCollector`.
 
-use super::places::MOST;
+use super::{in_turn, MOST};
 use crate::clock::Outputs;
 use incircle_protocol::{answer_status, Status};
 
@@ -45,8 +45,7 @@ impl Collector {
 
     /// Simulates one clock, in which a beat of the engine `takes` is taken.
     pub(super) fn clock(&mut self, offers: &Offers, takes: Option<usize>) {
-        let mut order = (1..=MOST).map(|step| (self.chosen + step) % MOST);
-        let next = order.find(|&engine| offers[engine].response_valid).filter(|_| !self.is_active);
+        let next = in_turn(self.chosen).find(|&engine| offers[engine].response_valid).filter(|_| !self.is_active);
         let chosen = std::mem::replace(&mut self.next, next);
         if let (false, Some(chosen)) = (self.is_active, chosen) {
             (self.is_active, self.is_first, self.chosen) = (true, true, chosen);

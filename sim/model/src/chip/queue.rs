@@ -7,9 +7,9 @@ use std::collections::VecDeque;
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct CommandQueue {
-    /// The words, oldest first, without the one that came.
+    /// The words, oldest first, without the one that came last.
     words: VecDeque<u32>,
-    /// The word that came at the edge before, and is not on offer yet if the queue was empty.
+    /// The word that came at the edge before. It is on offer only if no other word waits.
     came: Option<u32>,
 }
 

@@ -1,8 +1,8 @@
-//! Gives each job to an engine: the words from a `Clear` up to the next one.
+//! Gives each job to an engine. A job is the words from a `Clear` up to the next one, also those of a batch.
 //!
 //! Hardware twin: the block `JobRouter`.
 
-use super::places::MOST;
+use super::{in_turn, MOST};
 use incircle_protocol::{command_opcode, Opcode, PADDING};
 
 /// The meaning of the word that the router holds, or of the next one.
@@ -30,8 +30,7 @@ impl Sight {
     /// The next engine in turn behind `current` that may get a job.
     fn next_free(&self, current: usize) -> Option<usize> {
         let all_are_stuck = self.is_stuck.iter().all(|&stuck| stuck);
-        let order = (1..=MOST).map(|step| (current + step) % MOST);
-        order.into_iter().find(|&engine| self.is_free[engine] && (all_are_stuck || !self.is_stuck[engine]))
+        in_turn(current).find(|&engine| self.is_free[engine] && (all_are_stuck || !self.is_stuck[engine]))
     }
 }
 

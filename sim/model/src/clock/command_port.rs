@@ -21,13 +21,13 @@ pub(super) enum State {
     Answer,
 }
 
-/// The check whether the number of jobs divides that of the contexts: one job's contexts after another are counted, and
-/// the last sum must be right.
+/// The check whether the number of jobs divides that of the contexts. Each clock counts one more member of every team,
+/// so it adds the number of jobs to the sum. The numbers divide if the sum meets that of the contexts.
 #[derive(Clone, Copy, Debug, Default)]
 struct Check {
     contexts: u32,
     jobs: u32,
-    /// Contexts of the members that are counted.
+    /// Contexts that are counted.
     sum: u32,
 }
 
@@ -127,7 +127,7 @@ impl CommandPort {
         self.arrived = self.arrived.max(vertex + 1);
     }
 
-    /// Counts the contexts of one more member of each team.
+    /// Counts one more member of each team.
     fn check(&mut self) {
         let Some(Check { contexts, jobs, sum }) = self.checked.take() else {
             return;

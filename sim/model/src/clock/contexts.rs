@@ -1,7 +1,7 @@
-//! The flags of the contexts: asleep, retrying, or with a commit or release due; further the context that holds the
-//! priority, and the solo insertion.
+//! The flags of the contexts: asleep, retrying, with a commit or release due, or asking for a solo insertion; and the
+//! priority of each team.
 //!
-//! Hardware twin: the block `ContextFlags`.
+//! Hardware twins: the blocks `ContextFlags` and `Priorities`.
 
 use super::defect::Defect;
 use super::outcome::Outcome;
@@ -24,7 +24,7 @@ pub(super) struct Contexts {
     pub hinted: Set,
     /// Contexts that hold the priority of their team: they wait at foreign locks instead of aborting.
     pub holders: Set,
-    /// For each team, the number of foreign locks that the context with the priority has met since it acquired the
+    /// For each team, the number of foreign locks that the context with the priority has met since it took the
     /// priority, up to `URGENT`.
     waits: [u8; Self::BITS as usize],
     /// Contexts whose list has overflowed. No context starts until the solo insertion of each of their points has
@@ -36,7 +36,7 @@ pub(super) struct Contexts {
     pub rest: bool,
 }
 
-/// L3: number of foreign locks that the context with the priority meets before the others stop retrying.
+/// L3: number of foreign locks that the context with the priority meets before the others of its team stop retrying.
 const URGENT: u8 = 8;
 
 /// The team of a context, which works on the job of that number.
@@ -57,9 +57,9 @@ impl Contexts {
         *self = Self { asleep: Set::MAX >> (Self::BITS - contexts), ..Self::default() };
     }
 
-    /// Whether a context may try its point again. Contexts that abort again and again, in step with the context
-    /// that holds the priority, could keep it from its locks for ever. When it has waited for long, it alone
-    /// retries; new points still start.
+    /// Whether a context may try its point again. Contexts that abort and retry in step with the context that holds
+    /// the priority of their team could keep that one from its locks for ever. When it has waited for long, no other
+    /// context of the team retries; new points still start.
     pub(super) fn may_try_again(&self, context: usize, jobs: u32) -> bool {
         let others = self.holders & members(team_of(context, jobs), jobs) & !(1 << context);
         others == 0 || self.waits[team_of(context, jobs)] < URGENT

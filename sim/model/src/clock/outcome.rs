@@ -106,9 +106,9 @@ impl Outcome {
         self
     }
 
-    /// L1, L2: notes the lock that a visit of an attempt took. At the lock of another context this one waits if it holds
-    /// the priority. Else its attempt drains: its visits complete before its locks are released. Returns whether the
-    /// visit counts.
+    /// L1, L2: notes the lock that a visit of an attempt took. At the lock of another context this one waits if it
+    /// holds the priority. Else its attempt drains: its visits complete before its locks are released. Returns whether
+    /// the visit counts.
     pub(super) fn takes_lock(&mut self, done: &Completion, around: &Around, state: &mut Attempt) -> bool {
         if done.took {
             self.lock = Some((state.logged, done.visit.record));

@@ -1,5 +1,5 @@
-//! Releases the locks of committed and aborted attempts, one in each clock. After a reset it clears
-//! the whole lock memory.
+//! Releases the locks of committed and aborted attempts, one in each clock. After a reset it clears the whole lock
+//! memory.
 //!
 //! Hardware twin: the block `Release`.
 

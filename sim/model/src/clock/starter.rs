@@ -1,5 +1,4 @@
-//! Wakes sleeping contexts: a pointer visits one context in each clock, round and round, and starts a walk
-//! if one is due.
+//! Wakes sleeping contexts: a pointer goes round them, one in each clock, and a walk starts where one is due.
 //!
 //! Hardware twin: the block `Starter`.
 
@@ -72,8 +71,8 @@ impl Starter {
             return None;
         }
         if flags.retrying & bit != 0 {
-            // L1: a context that has aborted rests. L3: no other context retries while the one with the priority
-            // has waited for long.
+            // L1: a context that has aborted rests. L3: while the context with the priority of the team has waited for
+            // long, no other context of the team retries.
             let rested = self.round == 0 || defect == Some(Defect::NeverRests);
             let jobs = if defect == Some(Defect::OnePriority) { 1 } else { was.command.jobs };
             let may = flags.may_try_again(context, jobs) || defect == Some(Defect::NobodyYields);

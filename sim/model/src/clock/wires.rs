@@ -105,8 +105,8 @@ pub(super) struct Wires {
     pub has_changed: bool,
     pub changes_mesh: bool,
     pub is_pending: bool,
-    /// Whether a context would start, but a visit completes or the vertex memory takes a point, so
-    /// that the pointer waits.
+    /// Whether a context would start, but a visit completes or the vertex memory takes a point, so that the pointer
+    /// waits.
     pub start_is_held: bool,
     /// Whether the last record of the first triangle is written.
     pub seeds: bool,

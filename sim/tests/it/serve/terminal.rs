@@ -69,10 +69,14 @@ fn a_quick_board_with_runs_says_so_in_its_greeting() {
     let body: Vec<u32> =
         greet(&link).body.chunks(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect();
     let greeting = Greeting::from_words(body.try_into().expect("the words of a greeting"));
-    assert!(greeting.identity.takes(RunKind::InsertAs) && !greeting.identity.takes(RunKind::Delete));
+    assert!(greeting.identity.takes(RunKind::InsertAs) && greeting.identity.takes(RunKind::Delete));
     end(child, "-TERM");
-    let refused = program(&link, &["--living"]).output().unwrap();
-    assert_eq!(refused.status.code(), Some(2), "a board at its pins has no runs");
+    let refused = program(&link, &["--living", "--config", "full"]).output().unwrap();
+    let said = String::from_utf8_lossy(&refused.stderr);
+    assert!(
+        refused.status.code() == Some(1) && said.contains("no simulated board \"full\": choose one of small"),
+        "{said}"
+    );
     fs::remove_dir_all(folder).unwrap();
 }
 

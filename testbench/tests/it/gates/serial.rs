@@ -29,6 +29,12 @@ fn devices_with_a_serial_link_pass_lint_and_synthesis() {
 }
 
 #[test]
+fn a_device_with_runs_passes_lint_and_synthesis() {
+    let passed = gate::pass(&export::serial_top_with_runs(SMALL, LINK, false).unwrap(), SERIAL_TOP_NAME);
+    assert!(passed.is_ok(), "{}", passed.unwrap_err());
+}
+
+#[test]
 fn the_link_alone_is_small() {
     let cells = gate::cell_count(&export::serial_link(SMALL, LINK, "serial_link").unwrap(), "serial_link").unwrap();
     println!("serial link on ECP5: {cells:?}");

@@ -1,5 +1,5 @@
-//! Divisions fit the device and are the cheapest there are, and the formulas agree with the clocks
-//! that the model counts.
+//! Divisions fit the device and are the cheapest there are, and the formulas agree with the clocks that the model
+//! counts.
 
 use incircle_protocol::{Config, FULL, LARGE, SMALL};
 use proptest::prelude::*;
@@ -255,6 +255,17 @@ fn parts_are_halves_only_where_that_saves_clocks() {
     assert_eq!(Plan::new(16, 2048, false).part_size(usize::MAX), 2048);
     // A set of 4,000 points on the four engines of `quad`.
     assert_eq!(Plan::new(16, 2048, true).part_size(1000), 500);
+}
+
+#[test]
+fn a_small_batch_goes_to_all_engines() {
+    let groups = |engines, jobs| {
+        let parts = Plan::new(16, 2048, true).on_engines(engines).divide(&vec![500; jobs]);
+        parts.iter().map(|part| part.jobs()).collect::<Vec<_>>()
+    };
+    assert_eq!([groups(1, 8), groups(4, 8), groups(4, 4)], [vec![4; 2], vec![2; 4], vec![1; 4]]);
+    // A batch that gives every engine its fill is divided as for one engine.
+    assert_eq!(groups(4, 16), groups(1, 16));
 }
 
 #[test]
