@@ -235,7 +235,7 @@ fn the_prose_has_the_numbers_of_the_crate() {
         format!("Version {}.{}.", PROTOCOL_VERSION >> 16, PROTOCOL_VERSION & 0xffff),
         format!("counters, {COUNTER_WORDS} words"),
         format!("histogram of latencies, {LATENCY_BUCKETS} words"),
-        format!("before the {}th are inserted by", FIRST_ROUND + 1),
+        format!("The first {FIRST_ROUND} points are inserted by"),
         format!("context `(j - {FIRST_ROUND}) mod K`"),
         format!(
             "below {} clocks, bucket {last} for all from {} on",
