@@ -64,8 +64,8 @@ pub(crate) struct ExportArguments {
     /// Number of engines of a chip of your own size, each a core with a memory of its own: 1, 2 or 4.
     #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
     pub(crate) engines: u32,
-    /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs and Delete. For cores
-    /// of one engine, alone or behind a serial link, with at most 32 boundary edges in a list.
+    /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs, Delete and
+    /// Move. For cores of one engine, alone or behind a serial link, with at most 32 boundary edges in a list.
     #[arg(long, requires = "core_size")]
     pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.

@@ -151,7 +151,7 @@ fn the_identity_says_which_runs_the_core_has() {
     let mut device = device();
     let session = device.session().expect("a session");
     let taken = RunKind::ALL.map(|kind| session.identity().takes(kind));
-    assert_eq!(taken, [true, true, true, true, true, false]);
+    assert_eq!(taken, [true, true, true, true, true, true]);
     assert!(session.keeps_living_meshes());
 }
 

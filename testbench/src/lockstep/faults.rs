@@ -432,10 +432,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "stars_are_judged_by_the_old_place",
         pieces: &[piece("is_moved1$d = @;", "(~is_out) & (visit[(64'h6)+:(1)] | is_last_edge)", "1'b0")],
     },
-    Fault {
-        name: "own_place_is_another_one",
-        pieces: &[piece("kind$is_last_edge & (@);", "mover$stays | edges$keeps", "edges$keeps")],
-    },
+    Fault { name: "own_place_is_another_one", pieces: &[piece("is_kept = moves & (@ |", "stays", "1'b0")] },
     Fault {
         name: "torn_points_count",
         pieces: &[piece("torn2$d = @ |", "(written1$q[(64'h0)+:(1)] & is_written)", "1'b0")],

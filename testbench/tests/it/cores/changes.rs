@@ -382,6 +382,8 @@ impl Rig {
     /// A script about one mesh.
     fn script(&mut self, points: u64, items: u64) -> Result<(), Box<Mismatch>> {
         let side = [3, 4, 6, 11, 1 << 16][self.random.below(5) as usize];
+        // Few points often have a vertex that must stay.
+        let points = if self.random.once_in(4) { 5 } else { points };
         self.clear()?;
         for _ in 0..2 + self.random.below(5) {
             match self.random.below(11) {
@@ -476,7 +478,8 @@ fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, items
         assert!(seen[outcome as usize] > scripts / 20, "{outcome:?} comes up: {seen:?}");
     }
     // Only meshes of a few points have a vertex without which all others lie on one line.
-    assert!(seen[Outcome::Flat as usize] > scripts / 50, "vertices that must stay: {seen:?}");
+    let has_few = config.points < 1000;
+    assert!(!has_few || seen[Outcome::Flat as usize] > scripts / 50, "vertices that must stay: {seen:?}");
     let refuses_many = config.ring < 10 && config.points > 10;
     assert!(!refuses_many || seen[Outcome::ManyNeighbors as usize] > scripts / 50, "long rings: {seen:?}");
     assert!(seen[15] > scripts / 50, "runs with a vertex or a place twice: {seen:?}");
@@ -499,7 +502,7 @@ fn cores_with_a_broken_block_of_changes_are_caught() {
     assert!(first_mismatch(pair(&[]), CROWD, 60).is_none(), "the sound core equals its model");
     let mut missed = Vec::new();
     for Fault { name, .. } in CHANGE_FAULTS {
-        match first_mismatch(pair(&[name]), CROWD, 300) {
+        match first_mismatch(pair(&[name]), CROWD, 1500) {
             Some((number, mismatch)) => println!("{name}: caught in script {number}, at port {}", mismatch.port),
             None => missed.push(name),
         }

@@ -31,17 +31,17 @@ fn moved(points: &[[u32; 2]], percent: f64, random: &mut SplitMix64) -> Vec<(usi
 }
 
 #[test]
-fn a_small_move_takes_fewer_cycles_than_planned() {
+fn a_small_move_takes_no_more_cycles_than_the_page_says() {
     let word = |[x, y]: [u32; 2]| x | y << 16;
     for (percent, count, most) in [
-        (2, 8_000, 17.5),
-        (5, 1_000, 23.5),
-        (5, 2_000, 21.0),
-        (5, 4_000, 19.5),
-        (5, 8_000, 18.5),
-        (10, 1_000, 25.5),
-        (10, 2_000, 23.0),
-        (10, 8_000, 20.0),
+        (2, 8_000, 17.05),
+        (5, 1_000, 22.6),
+        (5, 2_000, 20.55),
+        (5, 4_000, 19.35),
+        (5, 8_000, 18.4),
+        (10, 1_000, 24.65),
+        (10, 2_000, 22.65),
+        (10, 8_000, 20.05),
     ] {
         let mut points = generate(Distribution::Uniform, 8_000, 16, 1).expect("a set of this size");
         let mut model = ClockModel::new(FULL).unwrap().with_questions();
