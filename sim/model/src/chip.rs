@@ -5,22 +5,16 @@
 //! As in [`ClockModel`], an edge computes the next state of all parts from the registers as they were.
 
 mod collector;
+mod places;
 mod queue;
 mod router;
 
 use crate::clock::{ClockModel, Defect, Inputs, Outputs, Write};
 use collector::{Collector, Offers};
-use incircle_protocol::{Config, ConfigError, ENGINES};
+use incircle_protocol::{Config, ConfigError};
+use places::MOST;
 use queue::CommandQueue;
 use router::{JobRouter, Sight};
-
-/// Most engines of a chip: the number of places for engines. A place without an engine does no job.
-const MOST: usize = ENGINES[ENGINES.len() - 1] as usize;
-
-/// All places in turn, from the one behind `current` to `current` itself.
-fn in_turn(current: usize) -> impl Iterator<Item = usize> {
-    (1..=MOST).map(move |step| (current + step) % MOST)
-}
 
 /// The state of a chip at a clock.
 #[derive(Clone, Debug)]

@@ -2,7 +2,7 @@
 //!
 //! Hardware twin: the block `AnswerCollector`.
 
-use super::{in_turn, MOST};
+use super::places::{in_turn, MOST};
 use crate::clock::Outputs;
 use incircle_protocol::{answer_status, Status};
 

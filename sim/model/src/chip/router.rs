@@ -2,7 +2,7 @@
 //!
 //! Hardware twin: the block `JobRouter`.
 
-use super::{in_turn, MOST};
+use super::places::{in_turn, MOST};
 use incircle_protocol::{command_opcode, Opcode, PADDING};
 
 /// The meaning of the word that the router holds, or of the next one.
