@@ -219,10 +219,7 @@ fn place(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> R
 /// The Verilog of the device for a clock.
 fn device(request: &Request, clock_mhz: u32) -> Result<String, BoardError> {
     let Request { board, config, has_runs, link, .. } = request;
-    if *has_runs {
-        return link.device_with_runs(board, *config, clock_mhz);
-    }
-    link.device(board, *config, clock_mhz)
+    link.device(board, *config, *has_runs, clock_mhz)
 }
 
 /// Exports the device and maps the board's top module; returns the cells of the core and of the whole design.

@@ -77,28 +77,25 @@ impl BoardLink {
         matches!(self, Self::Udp(_)).then_some("phy_start.v")
     }
 
-    /// The Verilog of the device that the top of a board holds.
+    /// The Verilog of the device that the top of a board holds, with runs or without.
     ///
     /// # Errors
-    /// If a parameter is out of range, or the board has no port for this link.
-    pub(super) fn device(self, board: &Board, config: Config, clock_mhz: u32) -> Result<String, BoardError> {
+    /// If a parameter is out of range, the board has no port for this link, or the link does not carry runs.
+    pub(super) fn device(
+        self,
+        board: &Board,
+        config: Config,
+        has_runs: bool,
+        clock_mhz: u32,
+    ) -> Result<String, BoardError> {
         match self.at(clock_mhz) {
+            Self::Serial if has_runs => Ok(export::serial_top_with_runs(config, board.link(clock_mhz), false)?),
             Self::Serial => Ok(export::serial_top(config, board.link(clock_mhz), false)?),
+            Self::Udp(_) if has_runs => Err(ExportError::RunsBehindLink.into()),
             Self::Udp(parameters) => {
                 let Rgmii { delay, clock_delay, .. } = board.port()?;
                 Ok(export::udp_top(config, parameters, UdpPins::Rgmii { delay, clock_delay }, false)?)
             }
-        }
-    }
-
-    /// The Verilog of the device that the top of a board holds, with runs.
-    ///
-    /// # Errors
-    /// If a parameter is out of range, or this link does not carry runs.
-    pub(super) fn device_with_runs(self, board: &Board, config: Config, clock_mhz: u32) -> Result<String, BoardError> {
-        match self {
-            Self::Serial => Ok(export::serial_top_with_runs(config, board.link(clock_mhz), false)?),
-            Self::Udp(_) => Err(ExportError::RunsBehindLink.into()),
         }
     }
 }

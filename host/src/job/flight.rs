@@ -156,12 +156,12 @@ impl Carrier<'_> {
 
     /// Most loads under way at a time.
     fn most_sent(&self) -> usize {
-        match self.identity.engines {
-            _ if !self.channel.capabilities().takes_ahead => 1,
-            1 => self.channel.capabilities().jobs_ahead.clamp(1, MOST_TAGGED),
+        let capabilities = self.channel.capabilities();
+        match (self.identity.engines, self.engines_at_once()) {
+            (1, _) if capabilities.takes_ahead => capabilities.jobs_ahead.clamp(1, MOST_TAGGED),
+            (_, 1) => 1,
             // A tag has a byte, and a load that was dropped keeps its tag until its last answer has come.
-            engines if self.channel.takes_any_order() => (MOST_SENT * engines as usize + 1).min(MOST_TAGGED),
-            _ => 1,
+            (_, engines) => (MOST_SENT * engines + 1).min(MOST_TAGGED),
         }
     }
 

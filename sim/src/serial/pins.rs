@@ -46,15 +46,17 @@ impl PinBoard {
     /// # Errors
     /// [`SimError::NoBoard`]: boards of this configuration were not translated when this crate was built.
     pub fn new(config: Config) -> Result<Self, SimError> {
-        Self::of(config, description(SERIAL, config)?)
+        let found = find(SERIAL, config).ok_or_else(|| SimError::NoBoard { name: config.name, built: built(SERIAL) });
+        Self::of(config, found?)
     }
 
     /// A board with the core with runs of this configuration, and the same link.
     ///
     /// # Errors
-    /// [`SimError::NoBoard`]: boards of this configuration with runs were not translated when this crate was built.
+    /// [`SimError::NoRuns`]: boards of this configuration with runs were not translated when this crate was built.
     pub fn living(config: Config) -> Result<Self, SimError> {
-        Self::of(config, description(LIVING, config)?)
+        let found = find(LIVING, config).ok_or_else(|| SimError::NoRuns { name: config.name, built: built(LIVING) });
+        Self::of(config, found?)
     }
 
     fn of(config: Config, description: &'static ModelDescription) -> Result<Self, SimError> {
@@ -123,12 +125,15 @@ impl PinBoard {
     }
 }
 
-/// The translated board of a configuration, with the name that follows this prefix.
-fn description(prefix: &str, config: Config) -> Result<&'static ModelDescription, SimError> {
-    let built = || models::NAMES.iter().filter_map(|name| name.strip_prefix(prefix)).collect::<Vec<_>>().join(", ");
+/// The translated board of a configuration, with the name that follows this prefix, if there is one.
+fn find(prefix: &str, config: Config) -> Option<&'static ModelDescription> {
     let is_named = incircle_protocol::NAMED.contains(&config);
-    let found = is_named.then(|| models::find(&format!("{prefix}{}", config.name))).flatten();
-    found.ok_or_else(|| SimError::NoBoard { name: config.name, built: built() })
+    is_named.then(|| models::find(&format!("{prefix}{}", config.name))).flatten()
+}
+
+/// Names of the configurations of which boards with this prefix were translated when this crate was built.
+fn built(prefix: &str) -> String {
+    models::NAMES.iter().filter_map(|name| name.strip_prefix(prefix)).collect::<Vec<_>>().join(", ")
 }
 
 impl Board for PinBoard {

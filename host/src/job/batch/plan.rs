@@ -176,8 +176,8 @@ impl Plan {
     }
 
     /// Cuts a list of jobs into parts that an engine does one after another. `lengths` are the distinct points of the
-    /// jobs, the longest first, each from 1 to the capacity. Of all cuts whose parts fit, the result has the fewest
-    /// clocks. O(jobs * contexts * log contexts).
+    /// jobs, the longest first, each from 1 to the capacity. Of all cuts whose parts fit, and whose groups have at most
+    /// an engine's share of the jobs, the result has the fewest clocks. O(jobs * contexts * log contexts).
     pub(super) fn divide(&self, lengths: &[usize]) -> Vec<Part> {
         // Dynamic programming from the last job to the first. For each job: the lowest cost of this job and all after
         // it, and the part with which that division begins.
