@@ -26,6 +26,8 @@ const STREAM_TOP: &str = "incircle_stream_top";
 const LIVING: [Config; 1] = [SMALL];
 /// The simulated cards, with the bits of their beats.
 const CARDS: [(Config, u32); 3] = [(SMALL, 64), (SMALL, 128), (FULL, 64)];
+/// Bits of a beat of the cards whose core has runs.
+const LIVING_BEAT: u32 = 64;
 
 fn main() {
     println!("cargo:rerun-if-env-changed=INCIRCLE_ONLY");
@@ -57,6 +59,13 @@ fn main() {
         if is_wanted(&name) {
             let verilog = exported(&name, export::serial_top_with_runs(config, board::board_link(config), false));
             builder = builder.model(ModelSource::new(&name, SERIAL_TOP, verilog).optimisation(Optimisation::Fast));
+        }
+    }
+    for config in LIVING {
+        let name = format!("living_stream_{}_{LIVING_BEAT}", config.name);
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::stream_top_with_runs(config, LIVING_BEAT, false));
+            builder = builder.model(ModelSource::new(&name, STREAM_TOP, verilog).optimisation(Optimisation::Fast));
         }
     }
     for config in [SMALL, FULL] {

@@ -55,7 +55,11 @@ fn main() {
                 .fast_clocks(name == cores::FAST_CLOCKS),
         );
     }
-    let netlists = if only.is_empty() || only.contains("netlist") { netlists::all() } else { Vec::new() };
+    let netlists = if only.is_empty() || only.contains("netlist") {
+        netlists::all(only.contains("netlist_living"))
+    } else {
+        Vec::new()
+    };
     for (name, verilog) in netlists.into_iter().filter(|(name, _)| is_wanted(name)) {
         // A netlist is compiled without optimisation: the text is large, and runs no
         // more than some hundred thousand clocks.

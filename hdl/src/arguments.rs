@@ -5,9 +5,14 @@ use incircle_hdl::board::sizes::{size_name, Family, FAMILIES, SIZES};
 use incircle_hdl::board::{Board, Clock, Origin, BOARDS};
 use incircle_hdl::top::UdpPins;
 use incircle_hdl::udp::UdpParameters;
-use incircle_protocol::{Config, UdpLinkConfig, BEAT_BITS, FULL, NAMED, SILENCE_MS, UDP_PORT};
+use incircle_protocol::{
+    Config, UdpLinkConfig, BEAT_BITS, ENGINES, FULL, MAX_CONTEXTS, MAX_FIFO_BYTES, MAX_LINK_CLOCK_HZ, MAX_POINTS,
+    MAX_RING, MIN_CONTEXTS, MIN_FIFO_BYTES, MIN_LINK_CLOCK_HZ, MIN_POINTS, MIN_RING, NAMED, SILENCE_MS, UDP_PORT,
+};
+use std::fmt::Display;
 use std::net::Ipv4Addr;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 /// Export the incircle core to Verilog, make bitstreams for boards, and count cells in families of FPGAs.
 #[derive(Parser)]
@@ -16,6 +21,11 @@ pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
 }
+
+/// Clock of a core behind a serial link or a UDP link, in Hz, unless another is asked for.
+const USUAL_CLOCK_HZ: u32 = 125_000_000;
+/// Width of a beat of the stream link in bits, unless another is asked for.
+const USUAL_BEAT_BITS: u32 = BEAT_BITS[0];
 
 /// Bytes of the receive FIFO unless others are asked for.
 pub(crate) const SERIAL_FIFO_BYTES: u32 = 4_096;
@@ -53,19 +63,44 @@ pub(crate) struct ExportArguments {
     #[arg(long, value_parser = config)]
     pub(crate) config: Option<Config>,
     /// Number of points that a core of your own size holds, a power of two. Needs --contexts.
-    #[arg(long, requires = "contexts")]
+    #[arg(
+        long,
+        requires = "contexts",
+        value_parser = whole_number::<u32>(MIN_POINTS, MAX_POINTS),
+        allow_negative_numbers = true
+    )]
     pub(crate) points: Option<u32>,
     /// Number of contexts of a core of your own size, that is, of insertions in progress at a time.
-    #[arg(long, requires = "points", conflicts_with = "config")]
+    #[arg(
+        long,
+        requires = "points",
+        conflicts_with = "config",
+        value_parser = whole_number::<u32>(MIN_CONTEXTS, MAX_CONTEXTS),
+        allow_negative_numbers = true
+    )]
     pub(crate) contexts: Option<u32>,
     /// Number of boundary edges that a context of a core of your own size keeps in its list.
-    #[arg(long, default_value_t = FULL.ring, requires = "points", conflicts_with = "config")]
+    #[arg(
+        long,
+        default_value_t = FULL.ring,
+        requires = "points",
+        conflicts_with = "config",
+        value_parser = whole_number::<u32>(MIN_RING, MAX_RING),
+        allow_negative_numbers = true
+    )]
     pub(crate) ring: u32,
     /// Number of engines of a chip of your own size, each a core with a memory of its own: 1, 2 or 4.
-    #[arg(long, default_value_t = 1, requires = "points", conflicts_with = "config")]
+    #[arg(
+        long,
+        default_value_t = 1,
+        requires = "points",
+        conflicts_with = "config",
+        value_parser = whole_number::<u32>(ENGINES[0], ENGINES[2]),
+        allow_negative_numbers = true
+    )]
     pub(crate) engines: u32,
-    /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs and Delete. For cores
-    /// of one engine, alone or behind a serial link, with at most 32 boundary edges in a list.
+    /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs, Delete and
+    /// Move. For cores of one engine, alone or behind a serial or a stream link, with at most 32 boundary edges in a list.
     #[arg(long, requires = "core_size")]
     pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.
@@ -77,20 +112,71 @@ pub(crate) struct ExportArguments {
     /// Module to export: the core with its two streams of words, or the core behind a serial, stream or UDP link.
     #[arg(long, value_enum, default_value = "core", requires = "core_size")]
     pub(crate) top: TopName,
-    /// Clock of the core behind a serial link or a UDP link, in Hz.
-    #[arg(long, default_value_t = 125_000_000, requires = "core_size")]
-    pub(crate) clock_hz: u32,
+    /// Clock of the core behind a serial link or a UDP link, in Hz. Default: 125000000.
+    #[arg(
+        long,
+        requires = "core_size",
+        value_parser = whole_number::<u32>(MIN_LINK_CLOCK_HZ, MAX_LINK_CLOCK_HZ),
+        allow_negative_numbers = true
+    )]
+    pub(crate) clock_hz: Option<u32>,
     /// Size of the receive FIFO of the serial link or the UDP link in bytes, a power of two. Default: 4096 for the
     /// serial link, 16384 for the UDP link.
-    #[arg(long, requires = "core_size")]
+    #[arg(
+        long,
+        requires = "core_size",
+        value_parser = whole_number::<u32>(MIN_FIFO_BYTES, MAX_FIFO_BYTES),
+        allow_negative_numbers = true
+    )]
     pub(crate) fifo_bytes: Option<u32>,
     #[command(flatten)]
     pub(crate) network: NetworkArguments,
     #[command(flatten)]
     pub(crate) pins: PinArguments,
-    /// Width of a beat of the stream link in bits: 64 or 128.
-    #[arg(long, default_value_t = 64, value_parser = beat_bits, requires = "core_size")]
-    pub(crate) width: u32,
+    /// Width of a beat of the stream link in bits: 64 or 128. Default: 64.
+    #[arg(long, value_parser = beat_bits, requires = "core_size", allow_negative_numbers = true)]
+    pub(crate) width: Option<u32>,
+}
+
+impl ExportArguments {
+    /// The clock of the core behind a serial link or a UDP link, in Hz.
+    pub(crate) fn clock_hz(&self) -> u32 {
+        self.clock_hz.unwrap_or(USUAL_CLOCK_HZ)
+    }
+
+    /// The width of a beat of the stream link in bits.
+    pub(crate) fn width(&self) -> u32 {
+        self.width.unwrap_or(USUAL_BEAT_BITS)
+    }
+
+    /// Refuses the options of another module than the one that is exported, where they would change nothing.
+    pub(crate) fn check_top(&self) -> Result<(), String> {
+        use TopName::{Serial, Stream, Udp};
+        let Self { network, pins, .. } = self;
+        let given: [(bool, &str, &[TopName]); 8] = [
+            (self.width.is_some(), "--width", &[Stream]),
+            (self.clock_hz.is_some(), "--clock-hz", &[Serial, Udp]),
+            (self.fifo_bytes.is_some(), "--fifo-bytes", &[Serial, Udp]),
+            (network.ip.is_some(), "--ip", &[Udp]),
+            (network.mac.is_some(), "--mac", &[Udp]),
+            (network.udp_port.is_some(), "--udp-port", &[Udp]),
+            (pins.rgmii_delay.is_some(), "--rgmii-delay", &[Udp]),
+            (pins.rgmii_clock_delay.is_some(), "--rgmii-clock-delay", &[Udp]),
+        ];
+        for (is_given, option, tops) in given {
+            if is_given && !tops.contains(&self.top) {
+                let tops: Vec<_> = tops.iter().map(|top| format!("--top {}", top.name())).collect();
+                let choose = if tops.len() == 1 { "it" } else { "one of them" };
+                return Err(format!("{option} is for {}: choose {choose}, or leave out {option}", tops.join(" and ")));
+            }
+        }
+        if matches!(pins.rgmii_delay, Some(UdpPins::Gmii)) && pins.rgmii_clock_delay.is_some() {
+            return Err("--rgmii-clock-delay is for the pins of RGMII, and --rgmii-delay gmii makes those of GMII: \
+                        leave out one of the two"
+                .to_owned());
+        }
+        Ok(())
+    }
 }
 
 /// The addresses of a device with a UDP link, unless others are asked for.
@@ -107,7 +193,7 @@ pub(crate) struct NetworkArguments {
     #[arg(long, value_name = "MAC", value_parser = ethernet_address)]
     pub(crate) mac: Option<[u8; 6]>,
     /// UDP port at which the device listens. Default: 26947.
-    #[arg(long, value_name = "PORT")]
+    #[arg(long, value_name = "PORT", value_parser = whole_number::<u16>(1, u16::MAX), allow_negative_numbers = true)]
     pub(crate) udp_port: Option<u16>,
 }
 
@@ -129,19 +215,22 @@ impl NetworkArguments {
 #[derive(Args)]
 pub(crate) struct PinArguments {
     /// Taps of 25 ps by which an ECP5 delays the data of RGMII; or `gmii` for the pins of GMII, for simulation.
-    #[arg(long, value_name = "TAPS", default_value = "0", value_parser = udp_pins)]
-    pub(crate) rgmii_delay: UdpPins,
-    /// Taps of 25 ps by which an ECP5 delays the clock of RGMII to the PHY.
-    #[arg(long, value_name = "TAPS", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..128))]
-    pub(crate) rgmii_clock_delay: u8,
+    /// Default: 0.
+    #[arg(long, value_name = "TAPS", value_parser = udp_pins, allow_negative_numbers = true)]
+    pub(crate) rgmii_delay: Option<UdpPins>,
+    /// Taps of 25 ps by which an ECP5 delays the clock of RGMII to the PHY. Default: 0.
+    #[arg(long, value_name = "TAPS", value_parser = taps, allow_negative_numbers = true)]
+    pub(crate) rgmii_clock_delay: Option<u8>,
 }
 
 impl PinArguments {
     /// The pins that these options name.
     pub(crate) fn pins(&self) -> UdpPins {
+        let clock_delay = self.rgmii_clock_delay.unwrap_or(0);
         match self.rgmii_delay {
-            UdpPins::Gmii => UdpPins::Gmii,
-            UdpPins::Rgmii { delay, .. } => UdpPins::Rgmii { delay, clock_delay: self.rgmii_clock_delay },
+            None => UdpPins::Rgmii { delay: 0, clock_delay },
+            Some(UdpPins::Rgmii { delay, .. }) => UdpPins::Rgmii { delay, clock_delay },
+            Some(UdpPins::Gmii) => UdpPins::Gmii,
         }
     }
 }
@@ -250,7 +339,7 @@ pub(crate) struct SizesArguments {
     pub(crate) table: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum TopName {
     /// The module incircle_core
     Core,
@@ -260,6 +349,32 @@ pub(crate) enum TopName {
     Stream,
     /// The module incircle_udp_top
     Udp,
+}
+
+impl TopName {
+    /// The name as the user writes it.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Core => "core",
+            Self::Serial => "serial",
+            Self::Stream => "stream",
+            Self::Udp => "udp",
+        }
+    }
+}
+
+/// Parses a whole number. The sentence for anything else tells these bounds; a number outside them is left to the
+/// checks of the design, which say more.
+fn whole_number<N>(least: N, most: N) -> impl Fn(&str) -> Result<N, String> + Clone + Send + Sync + 'static
+where
+    N: FromStr + Copy + Display + Send + Sync + 'static,
+{
+    move |text| text.parse().map_err(|_| format!("write a whole number from {least} to {most}"))
+}
+
+fn taps(text: &str) -> Result<u8, String> {
+    let taps = text.parse().ok().filter(|taps| *taps < 128);
+    taps.ok_or_else(|| "write a number of taps from 0 to 127".into())
 }
 
 fn network_address(text: &str) -> Result<(Ipv4Addr, u8), String> {
@@ -277,10 +392,7 @@ fn udp_pins(text: &str) -> Result<UdpPins, String> {
     if text == "gmii" {
         return Ok(UdpPins::Gmii);
     }
-    let delay = text.parse().ok().filter(|delay| *delay < 128);
-    delay
-        .map(|delay| UdpPins::Rgmii { delay, clock_delay: 0 })
-        .ok_or_else(|| "write a number of taps from 0 to 127, or gmii".into())
+    taps(text).map(|delay| UdpPins::Rgmii { delay, clock_delay: 0 }).map_err(|told| format!("{told}, or gmii"))
 }
 
 fn config(name: &str) -> Result<Config, String> {

@@ -33,6 +33,8 @@ pub enum Top {
     Living,
     /// The core with runs behind a serial link.
     LivingSerial(LinkConfig),
+    /// The core with runs behind a stream link with beats of this many bits.
+    LivingStream(u32),
     /// The core behind a serial link.
     Serial(LinkConfig),
     /// The core behind a stream link with beats of this many bits.
@@ -73,6 +75,7 @@ pub fn file((config, top): (Config, Top)) -> PathBuf {
         Top::Core => "",
         Top::Living => "_living",
         Top::LivingSerial(_) => "_living_serial",
+        Top::LivingStream(_) => "_living_stream",
         Top::Serial(_) => "_serial",
         Top::Stream(_) => "_stream",
         Top::Udp(..) => "_udp",
@@ -92,6 +95,10 @@ pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
         Top::LivingSerial(link) => {
             ("incircle core with runs behind a serial link", export::serial_top_with_runs(config, link, with_probe)?)
         }
+        Top::LivingStream(beat_bits) => (
+            "incircle core with runs behind a stream link",
+            export::stream_top_with_runs(config, beat_bits, with_probe)?,
+        ),
         Top::Serial(link) => ("incircle core behind a serial link", export::serial_top(config, link, with_probe)?),
         Top::Stream(beat_bits) => {
             ("incircle core behind a stream link", export::stream_top(config, beat_bits, with_probe)?)

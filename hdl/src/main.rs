@@ -19,26 +19,15 @@ use std::process::ExitCode;
 
 /// Writes the Verilog of one configuration, or renews the committed files.
 fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
-    let ExportArguments {
-        config,
-        points,
-        contexts,
-        ring,
-        engines,
-        living,
-        out,
-        probe,
-        top,
-        clock_hz,
-        fifo_bytes,
-        width,
-        ..
-    } = arguments;
+    let (clock_hz, width) = (arguments.clock_hz(), arguments.width());
+    let ExportArguments { config, points, contexts, ring, engines, living, out, probe, top, fifo_bytes, .. } =
+        arguments;
     let own = points.zip(contexts).map(|(points, contexts)| Config { name: "custom", points, ring, contexts, engines });
     let serial = LinkConfig { clock_hz, fifo_bytes: fifo_bytes.unwrap_or(SERIAL_FIFO_BYTES), silence_ms: SILENCE_MS };
     let top = match top {
         TopName::Core if living => Top::Living,
         TopName::Serial if living => Top::LivingSerial(serial),
+        TopName::Stream if living => Top::LivingStream(width),
         _ if living => return Err(committed::WriteError::Export(ExportError::RunsBehindLink)),
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(serial),
@@ -182,18 +171,26 @@ fn complain(line: &str) {
     let _ = writeln!(std::io::stderr(), "{line}");
 }
 
+/// Exit code if the command was called wrongly, as for options that do not exist.
+const WRONG_USE: u8 = 2;
 /// Exit code if the tools cannot be fetched, so that a script can tell this case from a fault of the design.
 const NO_TOOLS: u8 = 3;
 
 fn main() -> ExitCode {
     match Arguments::parse().command {
-        Command::Export(arguments) => match export(arguments) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => {
-                complain(&format!("incircle-hdl: {error}"));
-                ExitCode::FAILURE
+        Command::Export(arguments) => {
+            if let Err(told) = arguments.check_top() {
+                complain(&format!("incircle-hdl: {told}"));
+                return WRONG_USE.into();
             }
-        },
+            match export(arguments) {
+                Ok(()) => ExitCode::SUCCESS,
+                Err(error) => {
+                    complain(&format!("incircle-hdl: {error}"));
+                    ExitCode::FAILURE
+                }
+            }
+        }
         Command::Board(arguments) => exit_code(&boards(&arguments)),
         Command::Sizes(arguments) => exit_code(&measure_sizes(arguments).err().into_iter().collect::<Vec<_>>()),
     }

@@ -20,6 +20,8 @@ pub(crate) fn check_coord_bits(coord_bits: u32) -> Result<(), Error> {
 pub(crate) struct Limit {
     deadline: Instant,
     timeout: Duration,
+    /// Time for jobs that were sent ahead, which the deadline includes.
+    ahead: Duration,
 }
 
 impl Limit {
@@ -27,7 +29,7 @@ impl Limit {
     pub(crate) fn of(timeout: Duration) -> Self {
         const YEAR: Duration = Duration::from_secs(365 * 24 * 3600);
         let timeout = timeout.min(YEAR);
-        Self { deadline: Instant::now() + timeout, timeout }
+        Self { deadline: Instant::now() + timeout, timeout, ahead: Duration::ZERO }
     }
 
     pub(crate) fn deadline(self) -> Instant {
@@ -39,15 +41,15 @@ impl Limit {
         self.deadline.saturating_duration_since(Instant::now())
     }
 
-    /// The whole time that the job was given, for messages.
-    pub(crate) fn timeout(self) -> Duration {
-        self.timeout
+    /// The error of a device that did not finish `during` by the deadline.
+    pub(crate) fn missed(self, device: String, during: &'static str) -> Error {
+        Error::Timeout { device, during, timeout: self.timeout, ahead: self.ahead }
     }
 
-    /// The same limit, `time` later.
+    /// The same limit, later by the time of a job that was sent ahead.
     pub(crate) fn longer(self, time: Duration) -> Self {
         let more = Self::of(time).timeout;
-        Self { deadline: self.deadline + more, timeout: self.timeout + more }
+        Self { deadline: self.deadline + more, ahead: self.ahead + more, ..self }
     }
 
     /// Fails with [`Error::Timeout`] once the deadline has passed.
@@ -55,6 +57,6 @@ impl Limit {
         if Instant::now() <= self.deadline {
             return Ok(());
         }
-        Err(Error::Timeout { device: device.to_owned(), during, timeout: self.timeout })
+        Err(self.missed(device.to_owned(), during))
     }
 }

@@ -14,12 +14,13 @@ use crate::status::Outcome;
 /// The bit of [`Identity::features`] of a device that takes runs of all kinds.
 pub const FEATURE_RUNS: u32 = 1;
 
-/// The features of a core with runs: the kinds that the hardware has so far, a bit each.
+/// The features of a core with runs: one bit for each kind.
 pub const CORE_RUNS: u32 = RunKind::Locate.feature()
     | RunKind::Interpolate.feature()
     | RunKind::Nearest.feature()
     | RunKind::InsertAs.feature()
-    | RunKind::Delete.feature();
+    | RunKind::Delete.feature()
+    | RunKind::Move.feature();
 
 /// Lowest bit of the outcome in the first word of a part of an answer.
 pub const OUTCOME_SHIFT: u32 = 24;
@@ -192,7 +193,7 @@ mod tests {
             assert_eq!(kind.feature() & others, 0);
             assert_eq!(taken(kind.feature()), RunKind::ALL.map(|other| other == kind));
         }
-        assert_eq!(taken(CORE_RUNS), [true, true, true, true, true, false]);
+        assert_eq!(taken(CORE_RUNS), [true; 6]);
     }
 
     #[test]

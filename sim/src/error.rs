@@ -42,7 +42,9 @@ pub enum SimError {
         built: String,
     },
     /// No core of this configuration with runs was built.
-    #[error("there is no simulated core {name:?} with runs: choose one of {built}, or the back end clock")]
+    #[error(
+        "there is no simulated core {name:?} with runs: choose {built}, or the back end clock, which has all of them"
+    )]
     NoRuns {
         /// Name that was asked for.
         name: &'static str,

@@ -85,6 +85,9 @@ enum Task {
         /// Serve a device that does nothing, to measure drivers: its read-outs are zeros.
         #[arg(long, conflicts_with = "fast")]
         null: bool,
+        /// Take the core small with runs, for a mesh that lives, with beats of 64 bits.
+        #[arg(long, conflicts_with_all = ["fast", "null"])]
+        living: bool,
     },
     /// Write a layout for the viewer GTKWave beside a waveform of a core, with the names of states.
     #[command(after_help = "Example:\n  incircle-sim layout job.vcd && gtkwave job.gtkw")]
@@ -133,6 +136,7 @@ enum BoardKind {
 #[derive(Clone, Copy)]
 enum CardKind {
     Pins,
+    Living,
     Model,
     Null,
 }
@@ -155,8 +159,10 @@ fn main() -> ExitCode {
             let kind = if fast { BoardKind::Quick } else { BoardKind::Pins };
             run(config.config(), kind, living, Service { link, faults: fault, slow: slow.unwrap_or(0) })
         }
-        Task::ServePcie { dir, config, fault, width, fast, null } => {
-            let kind = if null {
+        Task::ServePcie { dir, config, fault, width, fast, null, living } => {
+            let kind = if living {
+                CardKind::Living
+            } else if null {
                 CardKind::Null
             } else if fast {
                 CardKind::Model
@@ -235,6 +241,7 @@ fn run_card(
     let stops = stops()?;
     let (device, what): (Box<dyn Beats>, _) = match kind {
         CardKind::Pins => (Box::new(PinCard::new(config, beat_bits)?), "simulated at its pins"),
+        CardKind::Living => (Box::new(PinCard::living(config, beat_bits)?), "with runs, simulated at its pins"),
         CardKind::Model => (Box::new(StreamModel::new(ModelCore::of(config)?, beat_bits)), "the software model"),
         CardKind::Null => (Box::new(NullDevice::new(config, beat_bits)), "a device that does nothing"),
     };

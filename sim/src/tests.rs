@@ -1,11 +1,12 @@
 //! The two streams against a device that echoes, and the first words of every core.
 
+use incircle::Transport;
 use incircle_protocol::{
     answer_header, command_word, Config, Identity, Opcode, Status, CORE_COORD_BITS, IDENTITY_WORDS, MAGIC, NAMED,
     SMALL, TINY,
 };
 
-use crate::{models, Awaited, SimDevice, SimError};
+use crate::{models, Awaited, SimDevice, SimError, SimTransport};
 
 fn echo() -> SimDevice {
     SimDevice::of(models::echo()).unwrap()
@@ -32,6 +33,13 @@ fn equal_words_in_a_row_are_as_many_words() {
     assert_eq!(answers, [8; 8]);
     let error = device.receive(&mut [0], 50).unwrap_err();
     assert!(matches!(error, SimError::Timeout { done: 0, .. }), "{error}");
+}
+
+/// A simulation is as slow as the machine is busy, so its limits of time are not those of a real core.
+#[test]
+fn limits_of_time_are_those_of_a_slow_device() {
+    let pace = SimTransport::new(echo(), "echo").capabilities().pace;
+    assert_eq!((pace.slow, pace.words_per_second), (20, None));
 }
 
 #[test]

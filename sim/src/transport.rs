@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use incircle::transports::{receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, DeviceClocks};
+use incircle::transports::{receive_in_pieces, receive_next_in_pieces, AnswerHead, Capabilities, DeviceClocks, Pace};
 use incircle::{Device, ErrorKind, Transport, TransportError};
 use incircle_protocol::{Command, Config};
 
@@ -11,6 +11,11 @@ use crate::error::SimError;
 
 /// Clocks simulated between two looks at the deadline: a fraction of a second.
 const SLICE: u64 = 100_000;
+
+/// Factor by which limits of time are longer than those for a real core. The simulation runs in the process of the
+/// caller, so a deadline in wall time says little about the core: on a machine whose processors are all busy the
+/// greeting alone has taken more than the 15 s that a real core gets.
+const SLOW: u32 = 20;
 
 /// A simulated core of this configuration, as a device of the library.
 ///
@@ -120,7 +125,8 @@ impl Transport for SimTransport {
     }
 
     fn capabilities(&self) -> Capabilities {
-        Capabilities { takes_ahead: true, any_order: true, ..Capabilities::default() }
+        let pace = Pace { slow: SLOW, ..Pace::default() };
+        Capabilities { takes_ahead: true, any_order: true, pace, ..Capabilities::default() }
     }
 
     fn clocks(&self) -> Option<DeviceClocks> {

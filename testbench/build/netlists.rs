@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use incircle_hdl::board::mapping;
-use incircle_hdl::export;
+use incircle_hdl::export::{self, ExportError};
 use incircle_hdl::top::CORE_NAME;
 use incircle_protocol::{Config, SMALL};
 
@@ -26,14 +26,24 @@ const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
 /// Name and configuration of each core that is simulated as a netlist.
 const NETLISTS: [(&str, Config); 2] = [("netlist_small", SMALL), ("netlist_dual_tiny", DUAL_TINY)];
 
-/// Name and Verilog of every netlist; each has the probe.
-pub fn all() -> Vec<(&'static str, String)> {
-    NETLISTS.map(|(name, config)| (name, netlist(name, config))).into()
+/// Name of the netlist of `small` with runs. Its synthesis takes minutes, so it is made only if `INCIRCLE_ONLY` names it.
+const LIVING: &str = "netlist_living_small";
+
+/// Name and Verilog of every netlist, with that of a core with runs if `with_runs` says so. Each has the probe.
+pub fn all(with_runs: bool) -> Vec<(&'static str, String)> {
+    let made = |design: Result<String, ExportError>, name| {
+        netlist(name, &design.unwrap_or_else(|error| panic!("{name}: {error}")))
+    };
+    let mut netlists: Vec<_> =
+        NETLISTS.iter().map(|&(name, config)| (name, made(export::core(config, true), name))).collect();
+    if with_runs {
+        netlists.push((LIVING, made(export::core_with_questions(SMALL, true), LIVING)));
+    }
+    netlists
 }
 
-fn netlist(name: &str, config: Config) -> String {
-    let design = export::core(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name));
-    let mut text = OPEN_PINS.to_string() + &synthesised(name, &design);
+fn netlist(name: &str, design: &str) -> String {
+    let mut text = OPEN_PINS.to_string() + &synthesised(name, design);
     for cell in CELLS {
         let path = format!("cells/{cell}.v");
         text += &fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));

@@ -188,7 +188,7 @@ fn place(request: &Request, toolbox: &Toolbox, work: &Path, clock_mhz: u32) -> R
     for seed in 1..=request.seeds {
         let (report, config) = (format!("report-{seed}.json"), format!("seed-{seed}.config"));
         let seed_text = seed.to_string();
-        let mut arguments: Vec<_> = board.chip.into_iter().chain(placer(request.config)).collect();
+        let mut arguments: Vec<_> = board.chip.into_iter().chain(placer(request.config, request.has_runs)).collect();
         arguments.extend(["--json", "netlist.json", "--lpf", "pins.lpf", "--textcfg", &config, "--report", &report]);
         // A single seed may miss the clock: the median of all seeds decides.
         arguments.extend(["--seed", &seed_text, "--timing-allow-fail"]);

@@ -9,7 +9,7 @@ const PASSES: &str = include_str!("../../../constraints/ecp5/mapping.ys");
 /// Options of nextpnr, one or more a line.
 const PLACER: &str = include_str!("../../../constraints/ecp5/placer.txt");
 
-/// Options of nextpnr for `quad`, in place of those.
+/// Options of nextpnr for `quad` and for cores with runs, in place of those.
 const QUAD_PLACER: &str = include_str!("../../../constraints/ecp5/placer-quad.txt");
 
 /// The passes that turn a design that yosys has read into cells; `top` is its root module.
@@ -18,9 +18,10 @@ pub fn mapping(top: &str) -> String {
     passes.join("; ")
 }
 
-/// Options of nextpnr for a chip of this configuration, except those that name files and the device.
-pub(super) fn placer(config: Config) -> impl Iterator<Item = &'static str> {
-    let options = if config.name == QUAD.name { QUAD_PLACER } else { PLACER };
+/// Options of nextpnr for a core of this configuration, or for one with runs, except those that name files and the
+/// device.
+pub(super) fn placer(config: Config, has_runs: bool) -> impl Iterator<Item = &'static str> {
+    let options = if has_runs || config.name == QUAD.name { QUAD_PLACER } else { PLACER };
     lines(options).flat_map(str::split_whitespace)
 }
 
@@ -57,8 +58,8 @@ mod tests {
         assert!(mapping.starts_with("hierarchy -top some_top; proc; "), "{mapping}");
         assert!(!mapping.contains("TOP") && !mapping.contains('#') && !mapping.contains('\n'), "{mapping}");
         for config in [FULL, DUAL] {
-            assert!(placer(config).eq(["--placer", "static", "--tmg-ripup"]));
+            assert!(placer(config, false).eq(["--placer", "static", "--tmg-ripup"]));
         }
-        assert!(placer(QUAD).eq(["--placer", "static"]));
+        assert!(placer(QUAD, false).eq(["--placer", "static"]) && placer(FULL, true).eq(placer(QUAD, false)));
     }
 }

@@ -13,12 +13,13 @@
 //! ```
 //! Only `Insertions` sets and clears locks: by its visits, and by `clear` into `VisitPipeline`.
 
+use super::holes::LatePoint;
 use super::insertions::Insertions;
 use super::seed::Seeder;
 use super::solo::Solo;
 use super::types::{
-    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, NearVerdict,
-    Position, RecordRead, Start, Verdict, VertexId, Write,
+    Arrival, Bundle, ChangeEvents, Clocks, Completion, ContextId, Deal, EngineState, Events, Limits, Moving,
+    NearVerdict, Position, RecordRead, Start, Verdict, VertexId, Write,
 };
 use super::visit::{PushPort, VisitPipeline};
 use super::write::WritePort;
@@ -73,17 +74,19 @@ pub struct InsertionEngine {
     pub is_pending: Vec<Signal<In, Bit>>,
     pub change_runs: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
-    /// Ids are kept for the vertex of the item that begins. A run of deletions is under way. A vertex whose point is
-    /// wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A vertex is deleted,
+    /// Ids are kept for the vertex of the item that begins. A run of deletions is under way, or one of moves. A vertex
+    /// whose point is wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A vertex is deleted,
     /// or has come back with the ids that were kept for it.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
+    pub moving: Vec<Signal<In, Moving>>,
     pub wanted: Vec<Signal<In, VertexId>>,
     pub fetches: Vec<Signal<Out, Bit>>,
     pub fetched: Vec<Signal<Out, Point>>,
     pub erases: Vec<Signal<Out, Bit>>,
     pub returns: Vec<Signal<Out, Bit>>,
     insertions: Insertions,
+    late: Vec<LatePoint>,
     pipeline: VisitPipeline,
     solo: Solo,
     seeder: Seeder,
@@ -124,6 +127,8 @@ impl InsertionEngine {
             solo: Solo::with_deletions(),
             launch_owns: vec![Signal::default()],
             deletes: vec![Signal::default()],
+            moving: vec![Signal::default()],
+            late: vec![LatePoint::default()],
             wanted: vec![Signal::default()],
             fetches: vec![Signal::default()],
             fetched: vec![Signal::default()],
@@ -240,15 +245,32 @@ impl Logic for InsertionEngine {
             self.insertions.deletes[i].next = self.deletes[i].val();
             self.insertions.issued[i].next = self.pipeline.issued[i].val();
             self.insertions.turns_left[i].next = self.pipeline.turns_left[i].val();
-            self.pipeline.deletes[i].next = self.deletes[i].val();
+            self.pipeline.deletes[i].next = self.insertions.hole_runs[i].val() & (!self.solo.progress.val().is_at_work);
+            self.insertions.moving[i].next = self.moving[i].val();
+            self.insertions.sides[i].next = self.pipeline.sides[i].val();
+            self.pipeline.moving[i].next = self.moving[i].val();
+            self.pipeline.start[i].next = self.insertions.start.val();
+            self.pipeline.carried[i].next = self.insertions.carried[i].val();
+            self.late[i].clock.next = self.clock.val();
+            self.late[i].reset.next = self.reset.val();
+            self.late[i].comes.next = self.insertions.moved[i].val();
+            self.late[i].fetches.next = self.pipeline.fetches[i].val();
+            self.late[i].is_taken.next = self.launch_stores[i].val();
+            self.insertions.is_last_chance[i].next = self.late[i].is_last_chance.val();
+            if self.late[i].writes.val() {
+                self.pipeline.arrival.next = self.late[i].arrival.val();
+            }
             self.pipeline.test_vertices[i].next = self.insertions.test_vertices[i].val();
-            self.fetches[i].next = self.pipeline.fetches[i].val();
+            // Fetches and writes of points share a port. While a point waits, nobody else may read its vertex.
+            self.fetches[i].next = self.pipeline.fetches[i].val()
+                | self.late[i].waits.val()
+                | (self.insertions.hole_runs[i].val() & self.launch_stores[i].val());
             self.fetched[i].next = self.pipeline.fetched.val();
             self.erases[i].next = self.insertions.erases[i].val();
             self.returns[i].next = self.insertions.returns[i].val();
             self.solo.records.next = self.insertions.solo_first[i].val();
             self.solo.own_third[i].next = self.insertions.solo_second[i].val();
-            if self.deletes[i].val() {
+            if self.insertions.hole_runs[i].val() {
                 self.pipeline.fetch_id.next = self.wanted[i].val();
             }
             if self.insertions.fill_pushes[i].val() {

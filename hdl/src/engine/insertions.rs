@@ -6,10 +6,11 @@ use super::commit::CommitPath;
 use super::dispatch::{ChangeView, Dispatcher};
 use super::holes::{HoleMerge, Holes};
 use super::types::{
-    Bundle, ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow, Limits, LockClear,
-    SeedProgress, SoloProgress, SoloStart, Start, TestVertices, TriangleId, Upcoming, VertexId, Visit, VisitEvents,
-    Write,
+    Arrival, Bundle, Carried, ChangeEvents, Clocks, CommitJob, Completion, ContextId, Deal, Events, Fetched, Follow,
+    Limits, LockClear, Moving, SeedProgress, SoloProgress, SoloStart, Start, TestVertices, TriangleId, Upcoming,
+    VertexId, Visit, VisitEvents, Write,
 };
+use crate::predicate::Sides;
 use incircle_protocol::Config;
 use rust_hdl_core::prelude::*;
 
@@ -63,14 +64,23 @@ pub struct Insertions {
     pub has_changed: Vec<Signal<In, Bit>>,
     pub is_pending: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
-    /// In such a core: ids are kept for the vertex of the item that begins. A run of deletions is under way; the visit
-    /// that reads its record, and the vertices of its test; whether the corners of the completed visit turn left; a
-    /// test that enters the queue; the two ids of a solo insertion; a vertex is deleted, or has come back.
+    /// In such a core: ids are kept for the vertex of the item that begins. A run of deletions is under way, or one of
+    /// moves, with the item that begins; the visit that reads its record, and the vertices of its test; whether the
+    /// corners of the completed visit turn left, and the point against its sides; the point that a move in place writes;
+    /// the vertices that chains carry; a test that enters the queue; the two ids of a solo insertion; a vertex is put
+    /// out of the mesh, or has come back.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
+    pub moving: Vec<Signal<In, Moving>>,
     pub issued: Vec<Signal<In, Visit>>,
     pub test_vertices: Vec<Signal<Out, TestVertices>>,
     pub turns_left: Vec<Signal<In, Bit>>,
+    pub sides: Vec<Signal<In, Sides>>,
+    pub hole_runs: Vec<Signal<Out, Bit>>,
+    pub moved: Vec<Signal<Out, Arrival>>,
+    /// The point of a move in place that waits takes its last chance of a write, so no item begins.
+    pub is_last_chance: Vec<Signal<In, Bit>>,
+    pub carried: Vec<Signal<Out, Carried>>,
     pub fill_push: Vec<Signal<Out, Bundle>>,
     pub fill_pushes: Vec<Signal<Out, Bit>>,
     pub solo_first: Vec<Signal<Out, TriangleId>>,
@@ -114,9 +124,15 @@ impl Insertions {
             commits: CommitPath::with_deletions(config),
             launch_owns: vec![Signal::default()],
             deletes: vec![Signal::default()],
+            moving: vec![Signal::default()],
             issued: vec![Signal::default()],
             test_vertices: vec![Signal::default()],
             turns_left: vec![Signal::default()],
+            sides: vec![Signal::default()],
+            hole_runs: vec![Signal::default()],
+            is_last_chance: vec![Signal::default()],
+            moved: vec![Signal::default()],
+            carried: vec![Signal::default()],
             fill_push: vec![Signal::default()],
             fill_pushes: vec![Signal::default()],
             solo_first: vec![Signal::default()],
@@ -220,11 +236,21 @@ impl Logic for Insertions {
             self.changes[i].next = self.view[i].events.val();
         }
 
-        // In a run of deletions all visits that turn their record are those of the holes.
         for i in 0..self.holes.len() {
             self.holes[i].clock.next = self.clock.val();
             self.holes[i].reset.next = self.reset.val();
             self.holes[i].deletes.next = self.deletes[i].val();
+            self.holes[i].moving.next = self.moving[i].val();
+            self.holes[i].sides.next = self.sides[i].val();
+            self.hole_runs[i].next = self.holes[i].runs.val();
+            self.view[i].is_last_chance.next = self.is_last_chance[i].val();
+            self.moved[i].next = self.holes[i].moved.val();
+            self.carried[i].next = self.holes[i].carried.val();
+            self.commits.holds[i].next = self.holes[i].writes_next.val();
+            self.merge[i].commits.next = self.attempts.commit.val().valid;
+            self.view[i].finds.next = self.holes[i].finds.val();
+            self.view[i].moved.next = self.holes[i].moved.val();
+            self.view[i].moving.next = self.moving[i].val();
             self.holes[i].infinite.next = self.limits.val().infinite;
             self.holes[i].ring_capacity.next = self.limits.val().ring_capacity;
             self.holes[i].start.next = self.dispatcher.start.val();
@@ -234,7 +260,8 @@ impl Logic for Insertions {
             self.holes[i].turns_left.next = self.turns_left[i].val();
             self.holes[i].issued.next = self.issued[i].val();
             self.test_vertices[i].next = self.holes[i].vertices.val();
-            self.attempts.deletes[i].next = self.deletes[i].val();
+            self.attempts.early_finds[i].next = self.holes[i].early_finds.val();
+            self.attempts.finds[i].next = self.holes[i].finds.val();
             self.attempts.names[i].next = self.holes[i].names.val();
             self.attempts.is_free[i].next = self.holes[i].is_free.val();
 

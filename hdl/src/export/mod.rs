@@ -44,8 +44,9 @@ impl fmt::Display for ExportError {
             Self::Link(error) => return error.fmt(f),
             Self::Udp(error) => return error.fmt(f),
             Self::RunsBehindLink => {
-                return f
-                    .write_str("a core with runs has no link but the serial one: choose that one, or the core alone");
+                return f.write_str(
+                    "a core with runs has no UDP link: choose the serial link, the stream link, or the core alone",
+                );
             }
             Self::BeatBits(given) => {
                 let [narrow, wide] = BEAT_BITS;
@@ -212,6 +213,27 @@ pub fn stream_top(config: Config, beat_bits: u32, with_probe: bool) -> Result<St
             _ => return Err(ExportError::BeatBits(beat_bits)),
         };
         Ok(format!("{device}{}", stream_wrapper(&inside, beat_bits as usize, with_probe)))
+    })
+}
+
+/// The whole Verilog of a core of one engine with runs behind a stream link with beats of 64 or 128 bits: the link, the
+/// core, and around them the ANSI wrapper [`STREAM_TOP_NAME`](crate::top::STREAM_TOP_NAME).
+///
+/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
+///
+/// # Errors
+/// If a parameter is out of range, or the design is not fit for export.
+pub fn stream_top_with_runs(config: Config, beat_bits: u32, with_probe: bool) -> Result<String, ExportError> {
+    on_large_stack(|| {
+        let names = [format!("{STREAM_TOP_NAME}_link"), format!("{STREAM_TOP_NAME}_core")];
+        let parts = ChipParts { link: &names[0], chip: &names[1], engines: 1, with_probe };
+        let core = connected(LivingCore::new(config)?, parts.chip)?;
+        let link = match beat_bits {
+            64 => connected(StreamLink::<64, 8, 65>::with_runs(config)?, parts.link)?,
+            128 => connected(StreamLink::<128, 16, 129>::with_runs(config)?, parts.link)?,
+            _ => return Err(ExportError::BeatBits(beat_bits)),
+        };
+        Ok(link + &core + &parts.stream(beat_bits as usize))
     })
 }
 

@@ -5,7 +5,9 @@
 //! 2. A part with the outcome `Done` is given when the last write of the commit is on its way. At most one part is
 //!    given in a clock. The part of a commit waits for those of duplicates and solo insertions, and goes before a
 //!    refusal.
-//! 3. Outside a run no part is given: the items are then the points of an `Insert`.
+//! 3. The item of a move ends when its point is written, if it moves in place, or as an insertion does. A vertex that has
+//!    moved is in use again when its part is given.
+//! 4. Outside a run no part is given: the items are then the points of an `Insert`.
 //!
 //! Latency: none (combinational) from an event to `ends` and `came`, unless the part waits.
 
@@ -28,8 +30,9 @@ pub struct ChangeEnds {
     pub context_id: Signal<In, ContextId>,
     pub number: Signal<In, ItemNumber>,
     pub corner: Signal<In, VertexId>,
-    /// The run is one of `Delete`.
+    /// The run is one of `Delete` or `Move`; it is one of `Move`.
     pub is_delete: Signal<In, Bit>,
+    pub is_move: Signal<In, Bit>,
     /// An item is refused, because its vertex lies beyond the capacity or is in use; its number and its vertex. There
     /// is room for its part (`has_room`), and the part is given (`is_noted`).
     pub refuses: Signal<In, Bit>,
@@ -45,7 +48,7 @@ pub struct ChangeEnds {
     pub raised: Signal<Out, VertexId>,
     pub unmarks: Signal<Out, Bit>,
     pub unmarked: Signal<Out, VertexId>,
-    /// A vertex cannot be deleted, and stays in use.
+    /// A vertex cannot be deleted or moved, and stays in use; or it has moved.
     pub remarks: Signal<Out, Bit>,
     pub remarked: Signal<Out, VertexId>,
     /// Number of the item that each context has handed over. A context hands its next item over only after the commit
@@ -68,6 +71,9 @@ pub struct ChangeEnds {
     hands_over: Signal<Local, Bit>,
     is_refused: Signal<Local, Bit>,
     is_flat: Signal<Local, Bit>,
+    is_moved: Signal<Local, Bit>,
+    stays: Signal<Local, VertexId>,
+    pops: Signal<Local, Bit>,
 }
 
 // The kernel holds the outcomes as literals, because rust-hdl allows no constants there.
@@ -102,7 +108,9 @@ impl Logic for ChangeEnds {
         self.is_flat.next = self.events.val().fill_is_flat;
         self.hands_over.next =
             self.events.val().hands_over | (self.events.val().fill_ends & (!self.events.val().fill_is_flat));
-        self.is_refused.next = self.is_flat.val() | (self.is_delete.val() & self.events.val().duplicate);
+        self.is_moved.next = self.events.val().moves_in_place;
+        self.is_refused.next =
+            self.is_flat.val() | (self.events.val().finds & self.events.val().duplicate & (!self.is_moved.val()));
         self.ends.next.valid = self.events.val().hands_over
             | self.events.val().duplicate
             | self.events.val().solo_ends
@@ -117,13 +125,9 @@ impl Logic for ChangeEnds {
         }
         self.raises.next = self.events.val().commit_ends | self.events.val().solo_inserts;
         self.raised.next = self.events.val().committed_vertex;
-        self.unmarks.next = (self.events.val().duplicate & (!self.is_delete.val()))
-            | (self.events.val().solo_ends & (!self.events.val().solo_inserts));
-        self.remarks.next = self.is_refused.val();
-        self.remarked.next = self.events.val().vertex;
-        if self.is_flat.val() {
-            self.remarked.next = self.events.val().fill_vertex;
-        }
+        self.unmarks.next = ((self.events.val().duplicate & (!self.is_delete.val()))
+            | (self.events.val().solo_ends & (!self.events.val().solo_inserts)))
+            & (!self.is_move.val());
         self.unmarked.next = self.events.val().vertex;
         if self.events.val().solo_ends {
             self.raised.next = self.last_vertex.q.val();
@@ -143,8 +147,25 @@ impl Logic for ChangeEnds {
         self.done.push_data.next = self.pushed_bits.val();
         self.first.bits.next = self.done.data.val();
 
+        self.stays.next = self.events.val().vertex;
+        if self.is_flat.val() {
+            self.stays.next = self.events.val().fill_vertex;
+        }
         self.is_early.next = self.events.val().duplicate | self.events.val().solo_ends | self.is_flat.val();
-        self.done.pop.next = self.done.valid.val() & (!self.is_early.val());
+        self.pops.next = self.done.valid.val() & (!self.is_early.val());
+        self.done.pop.next = self.pops.val();
+        // A vertex that moves is in use again when its part is given, so that at most one is marked at an edge.
+        self.remarks.next = self.is_refused.val()
+            | self.is_moved.val()
+            | (self.is_move.val() & self.pops.val())
+            | (self.is_move.val() & self.events.val().solo_ends & self.events.val().solo_inserts);
+        self.remarked.next = self.first.value.val().vertex;
+        if self.is_refused.val() | self.is_moved.val() {
+            self.remarked.next = self.stays.val();
+        }
+        if self.events.val().solo_ends {
+            self.remarked.next = self.last_vertex.q.val();
+        }
         self.gives.next = self.refuses.val() & self.has_room.val() & (!self.is_early.val()) & (!self.done.valid.val());
         self.is_noted.next = self.gives.val();
         self.part.next.number = self.first.value.val().number;
@@ -174,10 +195,15 @@ impl Logic for ChangeEnds {
         if self.is_refused.val() {
             self.part.next.number = self.number.val();
             self.finding.next.outcome = 10.into();
-            self.finding.next.v0 = self.remarked.val();
+            self.finding.next.v0 = self.stays.val();
             if self.is_flat.val() {
                 self.finding.next.outcome = 11.into();
             }
+        }
+        if self.is_moved.val() {
+            self.part.next.number = self.number.val();
+            self.finding.next.outcome = 0.into();
+            self.finding.next.v0 = self.stays.val();
         }
         if self.events.val().solo_ends {
             self.part.next.number = self.last_number.q.val();

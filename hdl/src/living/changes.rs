@@ -1,4 +1,4 @@
-//! The changes of a mesh that stands: runs of `InsertAs` and `Delete`, and all points of an `Insert` that comes after
+//! The changes of a mesh that stands: runs of `InsertAs`, `Delete` and `Move`, and all points of an `Insert` that comes after
 //! one.
 //!
 //! ```text
@@ -36,10 +36,11 @@ pub struct Changes {
     pub contexts: Signal<In, ContextId>,
     /// A point of an `Insert` comes.
     pub arrival: Signal<In, Arrival>,
-    /// A run is under way; it is an `InsertAs`.
+    /// A run is under way; it is one of changes, and which.
     pub is_active: Signal<In, Bit>,
     pub is_change: Signal<In, Bit>,
     pub is_delete: Signal<In, Bit>,
+    pub is_move: Signal<In, Bit>,
     /// The item on offer, its vertex, and whether it is done with; the item for the queues, and whether they take it.
     pub dealt: Signal<In, DealtItem>,
     pub vertex: Signal<In, Word>,
@@ -70,7 +71,7 @@ pub struct Changes {
     /// A vertex is in the mesh.
     pub raises: Signal<Out, Bit>,
     pub raised: Signal<Out, VertexId>,
-    /// For a `Delete`, as the ports of [`VertexCheck`] of these names.
+    /// For a `Delete` or a `Move`, as the ports of [`VertexCheck`] of these names.
     pub wanted: Signal<Out, VertexId>,
     pub fetches: Signal<In, Bit>,
     pub fetched: Signal<In, Point>,
@@ -78,7 +79,7 @@ pub struct Changes {
     step: ChangeEnds,
     late: LatePoints,
     changed: DFF<Bit>,
-    deletes: Signal<Local, Bit>,
+    finds: Signal<Local, Bit>,
     item: Signal<Local, Item>,
     dealt_item: Signal<Local, Item>,
 }
@@ -100,7 +101,7 @@ impl Logic for Changes {
         self.late.reset.next = self.reset.val();
         self.check.clears.next = self.clears.val();
         self.late.clears.next = self.clears.val();
-        self.deletes.next = self.is_active.val() & self.is_delete.val();
+        self.finds.next = self.is_active.val() & (self.is_delete.val() | self.is_move.val());
         self.runs.next = self.is_active.val() & self.is_change.val();
         self.has_changed.next = self.changed.q.val();
         self.item.next = self.launch.val().item;
@@ -113,12 +114,12 @@ impl Logic for Changes {
         self.check.vertex.next = self.vertex.val();
         self.check.accepted.next = self.accepted.val() & self.is_active.val();
         self.check.is_noted.next = self.step.is_noted.val();
-        self.check.is_delete.next = self.is_delete.val() & self.is_active.val();
+        self.check.is_delete.next = self.finds.val();
         self.check.fetches.next = self.fetches.val();
         self.check.fetched.next = self.fetched.val();
         self.wanted.next = self.check.wanted.val();
         self.check.marks.next =
-            (self.launches.val() & (!self.deletes.val())) | self.events.val().takes | self.step.remarks.val();
+            (self.launches.val() & (!self.finds.val())) | self.events.val().takes | self.step.remarks.val();
         self.check.disowns.next = !(self.is_active.val() & self.is_change.val());
         self.check.marked.next = self.events.val().taken;
         if self.launches.val() {
@@ -143,7 +144,8 @@ impl Logic for Changes {
             self.queued.next = self.check.offered.val();
         }
 
-        self.step.is_delete.next = self.deletes.val();
+        self.step.is_delete.next = self.finds.val();
+        self.step.is_move.next = self.is_active.val() & self.is_move.val();
         self.step.runs.next = self.is_active.val() & self.is_change.val();
         self.step.events.next = self.events.val();
         self.step.context_id.next = self.context_id.val();

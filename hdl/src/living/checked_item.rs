@@ -1,5 +1,5 @@
 //! The item on offer, with what the memories say about its vertex: whether it is in use, whether ids are kept for it,
-//! and its point, which is the place of an item that deletes it.
+//! and its point, which is the place of an item that deletes or moves it.
 //!
 //! 1. Bits and point come two clocks after they are asked for (`asks`), and are kept until the next time.
 //! 2. An item of a question stays as it is.
@@ -16,7 +16,7 @@ pub struct CheckedItem {
     pub clock: Signal<In, Clock>,
     /// What was asked for will not come.
     pub drops: Signal<In, Bit>,
-    /// The item as it was dealt, whether it is one of a change and of a deletion, and its vertex.
+    /// The item as it was dealt, whether it is one of a change, and of a deletion or move, and its vertex.
     pub dealt: Signal<In, DealtItem>,
     pub is_change: Signal<In, Bit>,
     pub is_delete: Signal<In, Bit>,

@@ -56,6 +56,7 @@ impl Logic for ItemDealer {
         self.item.next.place = self.word.val();
         self.item.next.vertex = self.kept_vertex.q.val().get_bits::<15>(0);
         self.item.next.owns = false;
+        self.item.next.target = self.word.val();
         self.vertex.next = self.kept_vertex.q.val();
         if self.takes_vertex.val() {
             self.kept_vertex.d.next = self.word.val();

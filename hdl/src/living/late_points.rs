@@ -44,6 +44,7 @@ impl Logic for LatePoints {
         self.item.next.place = self.arrival.val().point;
         self.item.next.vertex = self.arrival.val().id;
         self.item.next.owns = false;
+        self.item.next.target = self.arrival.val().point;
         self.turn_after.next = self.turn.q.val() + self.one_turn.val();
         if self.taken.val() {
             self.is_held.d.next = false;

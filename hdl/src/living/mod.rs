@@ -3,7 +3,7 @@
 //! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
 //! of the insertion engine, which inserts nothing meanwhile. Behind the walk, a `Nearest` goes round vertices. Each
 //! `InsertAs` is an insertion of that engine, and each `Delete` begins there and ends in the blocks of
-//! [`engine::holes`](crate::engine::holes). [`Questions`] and [`Changes`] draw their blocks.
+//! [`engine::holes`](crate::engine::holes). A `Move` is a `Delete` that writes a point, or goes on as an `InsertAs`. [`Questions`] and [`Changes`] draw their blocks.
 
 mod change_ends;
 mod changes;
@@ -18,6 +18,7 @@ mod part_queue;
 mod question_step;
 mod questions;
 mod queue_counts;
+mod return_line;
 mod run_answer;
 mod run_gate;
 mod run_port;
@@ -34,6 +35,7 @@ pub use near_search::NearSearch;
 pub use part_queue::PartQueue;
 pub use question_step::QuestionStep;
 pub use questions::Questions;
+pub use return_line::ReturnLine;
 pub use run_gate::RunGate;
 pub use run_port::{RunPort, RunState};
 pub use standing_view::StandingView;

@@ -17,7 +17,9 @@
 //!    does not change during a run of questions.
 //! 4. An item of a change begins with a start of its context in the insertion engine, which makes its visits. Its walk
 //!    begins at the last root of its context, or as rule 2 says. [`Changes`] has the rest.
-//! 5. A run ends when its answer has been taken. A run of changes also waits until all locks are released.
+//! 5. The vertex of a move that is out of the mesh goes back before other items begin ([`ReturnLine`]). Its context has
+//!    its place in the answer already.
+//! 6. A run ends when its answer has been taken. A run of changes also waits until all locks are released.
 //!
 //! Latency: none (combinational) from a completed visit to `push`.
 
@@ -25,12 +27,13 @@ use super::changes::Changes;
 use super::item_queues::ItemQueues;
 use super::part_queue::PartQueue;
 use super::question_step::QuestionStep;
+use super::return_line::ReturnLine;
 use super::run_port::RunPort;
 use super::types::{Item, ItemNumber, Launch, Part};
 use crate::commands::{AnswerSource, CommandSink};
 use crate::engine::types::{
-    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, NearVerdict, Position, Push, Start,
-    TriangleId, VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
+    context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, Moving, NearVerdict, Position,
+    Push, Start, TriangleId, VertexId, Visit, CONTEXT_BITS, TRIANGLE_BITS,
 };
 use crate::leaf::LutMemory;
 use crate::predicate::{Point, Sides};
@@ -77,10 +80,11 @@ pub struct Questions {
     /// The context of an item of a change starts to walk, to the place in `position`; its point has to be stored.
     pub start: Signal<Out, Start>,
     pub stored: Signal<Out, Arrival>,
-    /// Ids are kept for the vertex of the item; a run of deletions is under way; and the ports of [`Changes`] of these
-    /// names.
+    /// Ids are kept for the vertex of the item; a run of deletions is under way; or one of moves, with the item that
+    /// begins; and the ports of [`Changes`] of these names.
     pub owns: Signal<Out, Bit>,
     pub deletes: Signal<Out, Bit>,
+    pub moving: Signal<Out, Moving>,
     pub wanted: Signal<Out, VertexId>,
     pub fetches: Signal<In, Bit>,
     pub fetched: Signal<In, Point>,
@@ -89,6 +93,7 @@ pub struct Questions {
     may_launch: Signal<Local, Bit>,
     port: RunPort,
     queues: ItemQueues,
+    line: ReturnLine,
     step: QuestionStep,
     parts: PartQueue,
     /// The record at which the last walk of each context has ended, or the root of its last change, and the number of
@@ -101,6 +106,7 @@ pub struct Questions {
     launch: Signal<Local, Launch>,
     item: Signal<Local, Item>,
     launches: Signal<Local, Bit>,
+    begins_item: Signal<Local, Bit>,
     bundle: Signal<Local, Bundle>,
     number: Signal<Local, ItemNumber>,
     part: Signal<Local, Part>,
@@ -119,6 +125,7 @@ impl Questions {
         let bits = context_bits(config);
         Self {
             queues: ItemQueues::new(config),
+            line: ReturnLine::new(config),
             changes: Changes::new(config),
             step: QuestionStep::new(config),
             hints: LutMemory::new(bits, TRIANGLE_BITS),
@@ -132,7 +139,7 @@ impl Logic for Questions {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, hinted);
-        clock!(self, clock, port, queues, step, parts, hints, numbers, changes);
+        clock!(self, clock, port, queues, line, step, parts, hints, numbers, changes);
         self.one_bit.next = 1.into();
         self.port.reset.next = self.reset.val();
         self.port.begins.next = self.begins.val();
@@ -163,13 +170,24 @@ impl Logic for Questions {
 
         // The queue of the pipeline takes one bundle a clock, so a walk begins only if no completed visit asks.
         self.launch.next = self.queues.launch.val();
+        self.line.reset.next = self.reset.val();
+        self.line.puts_out.next = self.events.val().puts_out;
+        self.line.put_out_context.next = self.events.val().put_out_context;
+        if self.line.waits.val() {
+            self.launch.next = self.line.launch.val();
+        }
         self.item.next = self.launch.val().item;
         self.may_launch.next = self.events.val().may_launch;
         if self.is_question.val() {
             self.may_launch.next = !self.step.asks.val();
         }
-        self.launches.next = self.queues.waits.val() & self.parts.has_room.val() & self.may_launch.val();
-        self.queues.launches.next = self.launches.val();
+        self.launches.next =
+            (self.line.waits.val() | (self.queues.waits.val() & self.parts.has_room.val())) & self.may_launch.val();
+        self.begins_item.next = self.launches.val() & (!self.line.waits.val());
+        self.queues.launches.next = self.begins_item.val();
+        self.line.begins.next = self.begins_item.val();
+        self.line.begun.next = self.queues.launch.val();
+        self.line.goes.next = self.launches.val() & self.line.waits.val();
         self.hints.read_address.next = self.launch.val().context;
         self.wide_launch.next = bit_cast::<24, 5>(self.launch.val().context);
         self.of_launch.next = self.hinted.q.val() >> self.wide_launch.val();
@@ -196,13 +214,20 @@ impl Logic for Questions {
         self.start.next.takes = true;
         self.start.next.id = self.item.val().vertex;
         self.deletes.next = self.port.is_active.val() & self.port.is_delete.val();
+        self.moving.next.runs = self.port.is_active.val() & self.port.is_move.val();
+        self.moving.next.returns = self.line.waits.val();
+        self.moving.next.stays = self.item.val().place == self.item.val().target;
+        self.moving.next.target = self.item.val().target;
         self.owns.next = self.item.val().owns;
-        self.stored.next.came = self.launches.val() & self.changes.runs.val() & (!self.port.is_delete.val());
+        self.stored.next.came = self.launches.val()
+            & self.changes.runs.val()
+            & (!self.port.is_delete.val())
+            & ((!self.port.is_move.val()) | self.line.waits.val());
         self.stored.next.id = self.item.val().vertex;
         self.stored.next.point = self.item.val().place;
         self.numbers.write_address.next = self.launch.val().context;
         self.numbers.write_data.next = self.item.val().number;
-        self.numbers.write_enable.next = self.launches.val();
+        self.numbers.write_enable.next = self.begins_item.val();
 
         // A walk can end before its item does, because outside the hull a search follows. The next walk of the context
         // begins where the walk has ended, and not where the search has.
@@ -234,7 +259,7 @@ impl Logic for Questions {
 
         self.parts.reset.next = self.reset.val();
         self.parts.head.next = self.port.head.val();
-        self.parts.begins.next = (self.launches.val() & self.port.is_active.val()) | self.changes.is_noted.val();
+        self.parts.begins.next = (self.begins_item.val() & self.port.is_active.val()) | self.changes.is_noted.val();
 
         self.changes.reset.next = self.reset.val();
         self.changes.clears.next = self.clears.val();
@@ -245,6 +270,7 @@ impl Logic for Questions {
         self.changes.is_active.next = self.port.is_active.val();
         self.changes.is_change.next = self.port.is_change.val();
         self.changes.is_delete.next = self.port.is_delete.val();
+        self.changes.is_move.next = self.port.is_move.val();
         self.changes.fetches.next = self.fetches.val();
         self.changes.fetched.next = self.fetched.val();
         self.wanted.next = self.changes.wanted.val();

@@ -41,9 +41,10 @@ pub struct RunAnswer {
 const _: () = {
     let words = [RunKind::Locate.part_words(), RunKind::Interpolate.part_words(), RunKind::Nearest.part_words()];
     assert!(words[0] == 4 && words[1] == 10 && words[2] == 2, "the numbers of this block follow the protocol");
-    assert!(RunKind::InsertAs.part_words() == words[2], "three kinds of parts have two words");
-    assert!(RunKind::Delete.part_words() == words[2], "three kinds of parts have two words");
-    assert!(Opcode::Delete as u8 & 4 == 4, "a third bit of the opcode decides");
+    assert!(RunKind::InsertAs.part_words() == words[2], "four kinds of parts have two words");
+    assert!(RunKind::Delete.part_words() == words[2], "four kinds of parts have two words");
+    assert!(RunKind::Move.part_words() == words[2], "four kinds of parts have two words");
+    assert!(Opcode::Delete as u8 & Opcode::Move as u8 & 4 == 4, "a third bit of the opcode decides");
     let most = [u32::MAX / words[0] as u32, u32::MAX / words[1] as u32, u32::MAX / words[2] as u32];
     assert!(most[0] == 1_073_741_823 && most[1] == 429_496_729, "the most items that can be counted");
     assert!(most[2] == 2_147_483_647, "the most items that can be counted");

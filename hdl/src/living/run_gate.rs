@@ -35,6 +35,7 @@ pub struct RunGate {
     nearest_code: Signal<Local, Bits<8>>,
     insert_code: Signal<Local, Bits<8>>,
     delete_code: Signal<Local, Bits<8>>,
+    move_code: Signal<Local, Bits<8>>,
 }
 
 // The kernel holds the opcodes as literals, because rust-hdl allows no constants there. A changed protocol fails here.
@@ -43,7 +44,8 @@ const _: () = assert!(
         && Opcode::Interpolate as u8 == 9
         && Opcode::Nearest as u8 == 10
         && Opcode::InsertAs as u8 == 11
-        && Opcode::Delete as u8 == 12,
+        && Opcode::Delete as u8 == 12
+        && Opcode::Move as u8 == 13,
     "the opcodes of this block follow the protocol"
 );
 
@@ -55,6 +57,7 @@ impl Logic for RunGate {
         self.nearest_code.next = 10.into();
         self.insert_code.next = 11.into();
         self.delete_code.next = 12.into();
+        self.move_code.next = 13.into();
         self.code.next = self.command.data.val().get_bits::<8>(24);
         self.opcode.next = self.code.val();
         self.begins.next = self.command.valid.val()
@@ -64,7 +67,8 @@ impl Logic for RunGate {
                 | (self.code.val() == self.interpolate_code.val())
                 | (self.code.val() == self.nearest_code.val())
                 | (self.code.val() == self.insert_code.val())
-                | (self.code.val() == self.delete_code.val()));
+                | (self.code.val() == self.delete_code.val())
+                | (self.code.val() == self.move_code.val()));
         self.core_command.data.next = self.command.data.val();
         self.core_command.valid.next = self.command.valid.val() & (!self.is_active.val()) & (!self.begins.val());
         self.run_command.data.next = self.command.data.val();

@@ -5,11 +5,11 @@
 //!    are taken, and then its answer is the status alone.
 //! 3. The head of an answer goes out when the number of items is known, or when the words of a refused run are over.
 //!    The run ends when its answer has been taken and, after changes, all locks are released.
-//! 4. An item of an `InsertAs` has two words, its vertex and its point; all others have one.
+//! 4. An item of an `InsertAs` or a `Move` has two words, its vertex and its point; all others have one.
 //! 5. `command_ready` depends on registers only and does not wait for `command_valid`.
 //!
 //! Latency: 2 clocks from the number of items to `head`. An item is dealt in the clock after it was taken, so an item
-//! can be taken every second clock. An `InsertAs` needs at least 7 clocks an item: for its two words, and for the look
+//! can be taken every second clock. An `InsertAs` or a `Move` needs at least 7 clocks an item: for its two words, and for the look
 //! at its vertex.
 //!
 //! A run of two items, of which the first has to wait a clock:
@@ -68,9 +68,11 @@ pub struct RunPort {
     /// The item on offer to the contexts, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
     pub taken: Signal<In, Bit>,
-    /// The run under way, or the last one, is an `InsertAs` or a `Delete`, and which; the vertex of the item on offer.
+    /// The run under way, or the last one, is an `InsertAs`, a `Delete` or a `Move`, and which; the vertex of the item on
+    /// offer.
     pub is_change: Signal<Out, Bit>,
     pub is_delete: Signal<Out, Bit>,
+    pub is_move: Signal<Out, Bit>,
     pub vertex: Signal<Out, Word>,
     pub head: Signal<Out, RunHead>,
     /// The last word of the answer has been taken and, after changes, all locks are released; from the clock after
@@ -93,6 +95,9 @@ pub struct RunPort {
     is_vertex: Signal<Local, Bit>,
     change_code: Signal<Local, Bits<8>>,
     delete_code: Signal<Local, Bits<8>>,
+    move_code: Signal<Local, Bits<8>>,
+    moves: Signal<Local, Bit>,
+    has_two_words: Signal<Local, Bit>,
     starts: Signal<Local, Bit>,
     awaits_item: Signal<Local, Bit>,
     passes_item: Signal<Local, Bit>,
@@ -105,7 +110,8 @@ const _: () = assert!(
     Status::BadRange as u8 == 2
         && Status::NoMesh as u8 == 7
         && Opcode::InsertAs as u8 == 11
-        && Opcode::Delete as u8 == 12,
+        && Opcode::Delete as u8 == 12
+        && Opcode::Move as u8 == 13,
     "the numbers of this block follow the protocol"
 );
 
@@ -118,8 +124,12 @@ impl Logic for RunPort {
         self.change_code.next = 11.into();
         self.delete_code.next = 12.into();
         self.is_delete.next = self.code.q.val() == self.delete_code.val();
-        self.is_change.next = (self.code.q.val() == self.change_code.val()) | self.is_delete.val();
-        self.is_vertex.next = (self.code.q.val() == self.change_code.val()) & (!self.vertex_came.q.val());
+        self.move_code.next = 13.into();
+        self.moves.next = self.code.q.val() == self.move_code.val();
+        self.is_move.next = self.moves.val();
+        self.has_two_words.next = (self.code.q.val() == self.change_code.val()) | self.moves.val();
+        self.is_change.next = self.has_two_words.val() | self.is_delete.val();
+        self.is_vertex.next = self.has_two_words.val() & (!self.vertex_came.q.val());
         self.is_active.next = self.state.q.val() != RunState::Idle;
         self.is_nearest.next = self.code.q.val().get_bit(1) & (!self.code.q.val().get_bit(0));
         self.starts.next = self.begins.val() & (self.state.q.val() == RunState::Idle);

@@ -20,12 +20,14 @@ pub const QUEUE_COUNT_BITS: usize = DEPTH_BITS + 1;
 pub const PART_ADDRESS_BITS: usize = 5;
 
 crate::packed! {
-    /// An item of a run: its place, and for a change its vertex, and whether ids are kept for that.
+    /// An item of a run: its place, and for a change its vertex, and whether ids are kept for that. The place of a move
+    /// is the one that its vertex leaves, and `target` the new one.
     pub struct Item {
         pub number: Bits<24>,
         pub place: Point,
         pub vertex: VertexId,
         pub owns: bool,
+        pub target: Point,
     }
 
     /// An item for a context.

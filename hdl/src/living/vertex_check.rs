@@ -1,4 +1,4 @@
-//! Looks whether the vertex of an item can be inserted or deleted, before the item goes to its context: a bit for each
+//! Looks whether the vertex of an item can be inserted, deleted or moved, before the item goes to its context: a bit for each
 //! vertex says whether the vertex is in use, and another whether ids are kept for it.
 //!
 //! 1. A vertex at or beyond the capacity is refused with the outcome `Full`, and one in use with `InUse`. Every other
@@ -10,8 +10,9 @@
 //! 4. At most one of `marks` and `unmarks` is high. It has the write port of the bits first, and the item waits a
 //!    clock.
 //! 5. Items of a question go through without a look.
-//! 6. A vertex to delete is refused with the outcome `Missing` if it is not in use. Otherwise it is not in use from
-//!    then on, and owns ids that are kept for it. Its point is fetched and becomes the place of the item.
+//! 6. A vertex to delete or move is refused with the outcome `Missing` if it is not in use. Otherwise it is not in use
+//!    from then on, and owns ids that are kept for it. Its point is fetched and becomes the place of the item. A vertex
+//!    that has moved, or has to stay, is in use again when its part is given (`marks`).
 //! 7. A vertex that comes with an `Insert` owns none (`disowns`), and neither does one that was never known.
 //!
 //! Latency: 4 clocks from an item to its offer or refusal, and one more for each bit that is cleared; none for a
@@ -56,6 +57,7 @@ pub struct VertexCheck {
     /// edge (`taken`).
     pub dealt: Signal<In, DealtItem>,
     pub is_change: Signal<In, Bit>,
+    /// The items delete or move their vertices.
     pub is_delete: Signal<In, Bit>,
     pub vertex: Signal<In, Word>,
     pub taken: Signal<Out, Bit>,

@@ -72,6 +72,14 @@ impl<const W: usize, const K: usize, const E: usize> BusSide<W, K, E> {
             ..Self::default()
         }
     }
+
+    /// The bus's side of a core with runs of this configuration.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn with_runs(config: Config) -> Self {
+        Self { registers: RegisterBlock::with_runs(config, W), ..Self::new(config) }
+    }
 }
 
 impl<const W: usize, const K: usize, const E: usize> Logic for BusSide<W, K, E> {

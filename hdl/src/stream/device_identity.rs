@@ -6,8 +6,8 @@ use super::axi::RegisterIndex;
 use crate::commands::types::Word;
 use crate::leaf::Parameter;
 use incircle_protocol::{
-    Config, StreamRegister, CORE_COORD_BITS, CORE_VERSION, ENGINES_SHIFT, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAGIC,
-    PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
+    Config, StreamRegister, CORE_COORD_BITS, CORE_RUNS, CORE_VERSION, ENGINES_SHIFT, FEATURES_SHIFT, FEATURE_SHORT_IDS,
+    MAGIC, PROTOCOL_VERSION, STREAM_FIFO_BEATS, STREAM_VERSION,
 };
 use rust_hdl_core::prelude::*;
 
@@ -45,6 +45,16 @@ const _: () = {
 impl DeviceIdentity {
     /// The registers of a core of this configuration behind streams with beats of `beat_bits` bits.
     pub fn new(config: Config, beat_bits: usize) -> Self {
+        Self::with_features(config, beat_bits, FEATURE_SHORT_IDS)
+    }
+
+    /// The registers of a core with runs of this configuration behind such streams.
+    pub fn with_runs(config: Config, beat_bits: usize) -> Self {
+        Self::with_features(config, beat_bits, FEATURE_SHORT_IDS | CORE_RUNS)
+    }
+
+    /// The registers of a core with these bits in the features of its identity.
+    fn with_features(config: Config, beat_bits: usize, features: u32) -> Self {
         let word = |value: u32| Parameter::new(Bits::from(u64::from(value)));
         Self {
             magic: word(MAGIC),
@@ -54,7 +64,7 @@ impl DeviceIdentity {
             coord_bits: word(CORE_COORD_BITS),
             capacity: word(config.points),
             contexts: word(config.engines << ENGINES_SHIFT | config.contexts),
-            ring_capacity: word(FEATURE_SHORT_IDS << FEATURES_SHIFT | config.ring),
+            ring_capacity: word(features << FEATURES_SHIFT | config.ring),
             beat_bits: word(beat_bits as u32),
             fifo_beats: word(STREAM_FIFO_BEATS),
             ..Self::default()

@@ -67,6 +67,11 @@ impl RegisterBlock {
     pub fn new(config: Config, beat_bits: usize) -> Self {
         Self { identity: DeviceIdentity::new(config, beat_bits), ..Self::default() }
     }
+
+    /// The registers of a core with runs of this configuration behind such streams.
+    pub fn with_runs(config: Config, beat_bits: usize) -> Self {
+        Self { identity: DeviceIdentity::with_runs(config, beat_bits), ..Self::default() }
+    }
 }
 
 impl Logic for RegisterBlock {

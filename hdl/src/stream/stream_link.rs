@@ -66,6 +66,17 @@ impl<const W: usize, const K: usize, const E: usize> StreamLink<W, K, E> {
             ..Self::default()
         })
     }
+
+    /// The stream link of a core with runs of this configuration. Only the identity in its registers differs.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Panics
+    /// As [`new`](Self::new).
+    pub fn with_runs(config: Config) -> Result<Self, ConfigError> {
+        Ok(Self { bus: BusSide::with_runs(config.check()?), ..Self::new(config)? })
+    }
 }
 
 impl<const W: usize, const K: usize, const E: usize> Logic for StreamLink<W, K, E> {

@@ -12,8 +12,8 @@
 
 use crate::commands::{AnswerHead, AnswerSource, AnswerWords, CommandPort, CommandSink, LivingTally, Responder};
 use crate::engine::{
-    Arrival, Bundle, ChangeEvents, Completion, ContextId, Counters, InsertionEngine, Latencies, NearVerdict, Position,
-    Start, VertexId, Write,
+    Arrival, Bundle, ChangeEvents, Completion, ContextId, Counters, InsertionEngine, Latencies, Moving, NearVerdict,
+    Position, Start, VertexId, Write,
 };
 use crate::leaf::Parameter;
 use crate::living::types::Standing;
@@ -61,9 +61,10 @@ pub struct Core {
     pub point_waits: Vec<Signal<In, Bit>>,
     pub raises: Vec<Signal<In, Bit>>,
     pub raised: Vec<Signal<In, VertexId>>,
-    /// For deletions: as the ports of the engine of these names.
+    /// For deletions and moves: as the ports of the engine of these names.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
+    pub moving: Vec<Signal<In, Moving>>,
     pub wanted: Vec<Signal<In, VertexId>>,
     pub fetches: Vec<Signal<Out, Bit>>,
     pub fetched: Vec<Signal<Out, Point>>,
@@ -157,6 +158,7 @@ impl Core {
             responder: Responder::with_deletions(),
             launch_owns: vec![Signal::default()],
             deletes: vec![Signal::default()],
+            moving: vec![Signal::default()],
             wanted: vec![Signal::default()],
             fetches: vec![Signal::default()],
             fetched: vec![Signal::default()],
@@ -277,6 +279,7 @@ impl Logic for Core {
             self.command_port.raised[i].next = self.raised[i].val();
             self.engine.launch_owns[i].next = self.launch_owns[i].val();
             self.engine.deletes[i].next = self.deletes[i].val();
+            self.engine.moving[i].next = self.moving[i].val();
             self.engine.wanted[i].next = self.wanted[i].val();
             self.fetches[i].next = self.engine.fetches[i].val();
             self.fetched[i].next = self.engine.fetched[i].val();

@@ -1,5 +1,5 @@
 //! The core of a mesh that stands: as [`Core`], and it also does runs of `Locate`, `Interpolate`, `Nearest`,
-//! `InsertAs` and `Delete`.
+//! `InsertAs`, `Delete` and `Move`.
 //!
 //! ```text
 //! commands -> RunGate --> Core ------- completed visits --+
@@ -40,7 +40,7 @@ pub struct LivingCore {
 // The kernel holds the features as a literal, because rust-hdl allows no constants there. A changed protocol fails
 // here.
 const _: () = assert!(
-    (FEATURE_SHORT_IDS | CORE_RUNS) << FEATURES_SHIFT == 0x007e_0000,
+    (FEATURE_SHORT_IDS | CORE_RUNS) << FEATURES_SHIFT == 0x00fe_0000,
     "the identity of this core follows the protocol"
 );
 
@@ -67,7 +67,7 @@ impl Logic for LivingCore {
     fn update(&mut self) {
         clock!(self, clock, core, questions);
         self.engine_shift.next = 8.into();
-        self.core.features[0].next = 0x007e_0000.into();
+        self.core.features[0].next = 0x00fe_0000.into();
         self.core.reset.next = self.reset.val();
         self.questions.reset.next = self.reset.val();
         CommandSink::link(&mut self.command, &mut self.gate.command);
@@ -118,6 +118,7 @@ impl Logic for LivingCore {
         self.core.question_place[0].next = self.questions.position.val();
         self.core.launch_owns[0].next = self.questions.owns.val();
         self.core.deletes[0].next = self.questions.deletes.val();
+        self.core.moving[0].next = self.questions.moving.val();
         self.core.wanted[0].next = self.questions.wanted.val();
         self.questions.fetches.next = self.core.fetches[0].val();
         self.questions.fetched.next = self.core.fetched[0].val();

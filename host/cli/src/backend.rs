@@ -53,6 +53,29 @@ pub struct Backend {
     pub board: Option<Board>,
     /// The registers of the card, if the back end is one.
     pub card: Option<CardRegisters>,
+    /// What the address says about the core, if the back end is one in simulation.
+    addressed: Addressed,
+}
+
+/// The choices of a simulated core that stand in the address, so that no argument may make them again.
+#[derive(Clone, Copy, Default)]
+struct Addressed {
+    /// Whether the address names the configuration.
+    has_config: bool,
+    /// Whether the address asks for a core with runs.
+    needs_runs: bool,
+}
+
+impl Addressed {
+    fn of(address: &DeviceAddress) -> Self {
+        match address {
+            DeviceAddress::Clock { config } => Self { has_config: config.is_some(), needs_runs: false },
+            DeviceAddress::Sim { config, living, .. } => {
+                Self { has_config: config.is_some(), needs_runs: *living == Some(true) }
+            }
+            _ => Self::default(),
+        }
+    }
 }
 
 impl Backend {
@@ -85,10 +108,15 @@ impl Backend {
         if asked <= config.contexts {
             return Ok(());
         }
-        let all: Vec<_> = usual().map(|config| format!("{} {}", config.name, config.contexts)).collect();
+        let Addressed { has_config, needs_runs } = self.addressed;
+        let possible = || usual().filter(|&config| !needs_runs || has_simulated_runs(config));
+        let all: Vec<_> = possible().map(|config| format!("{} {}", config.name, config.contexts)).collect();
         let all = all.join(", ");
-        let larger = usual().find(|config| config.contexts >= asked);
-        let advice = larger.map_or(String::new(), |config| format!(" or --config {}", config.name));
+        let advice = match possible().find(|config| config.contexts >= asked) {
+            None => String::new(),
+            Some(larger) if has_config => format!(", or config={} in the address of the back end", larger.name),
+            Some(larger) => format!(" or --config {}", larger.name),
+        };
         Err(Failure::usage(format!(
             "{asked} contexts are more than the {} of the core {} ({all}): choose fewer{advice}",
             config.contexts, config.name
@@ -289,7 +317,8 @@ pub fn open_with_room(
         other => (Device::at(other), None),
     };
     let device = device.map_err(|error| failure_of(&error))?;
-    Ok(Backend { device, name: choice.address.name(), config, board: None, card: None })
+    let addressed = Addressed::of(&choice.address);
+    Ok(Backend { device, name: choice.address.name(), config, board: None, card: None, addressed })
 }
 
 fn open_serial(address: &Address, timeout: Option<Duration>) -> Result<Backend, Failure> {
@@ -299,14 +328,14 @@ fn open_serial(address: &Address, timeout: Option<Duration>) -> Result<Backend, 
     let rate = transport.rate();
     let board = transport.greeting().map(|&greeting| Board { greeting, rate, slow: address.slow });
     let device = Device::from_transport(Box::new(transport));
-    Ok(Backend { device, name: "serial", config: None, board, card: None })
+    Ok(Backend { device, name: "serial", config: None, board, card: None, addressed: Addressed::default() })
 }
 
 fn open_card(address: &CardAddress) -> Result<Backend, Failure> {
     let mut transport = PcieTransport::open(address).map_err(|error| failure_of(&error))?;
     let card = Some(transport.registers().map_err(|error| failure_of(&error))?);
     let device = Device::from_transport(Box::new(transport));
-    Ok(Backend { device, name: "pcie", config: None, board: None, card })
+    Ok(Backend { device, name: "pcie", config: None, board: None, card, addressed: Addressed::default() })
 }
 
 /// Makes a model for `points` points, unless its address names a capacity.

@@ -80,7 +80,12 @@ pub fn failure_of(error: &Error) -> Failure {
         // Timeouts, wrong answers, and kinds that the library adds later.
         _ => Exit::Device,
     };
-    Failure::new(exit, printable(&error.to_string()))
+    // The library counts the jobs of a batch from 0, and the command counts jobs from 1, as for `--trace-job`.
+    let told = match error {
+        Error::InJob { job, source } => format!("job {} of the batch, counted from 1: {source}", job + 1),
+        error => error.to_string(),
+    };
+    Failure::new(exit, printable(&told))
 }
 
 /// Most characters of a wrong value that a message quotes.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::failure::Failure;
+use crate::failure::{Exit, Failure};
 
 /// The memory of systems that do not tell how much is free.
 const USUAL: u64 = 16 << 30;
@@ -61,6 +61,24 @@ impl Memory {
     /// The most points that fit, with their triangulation.
     pub fn most_points(self) -> u64 {
         self.bytes / POINT_BYTES
+    }
+
+    /// The bytes that this many points take, with their triangulation.
+    pub fn of_points(count: u64) -> u64 {
+        count.saturating_mul(POINT_BYTES)
+    }
+
+    /// Refuses generated sets that need more than these bytes. `sets` names them, and `remedy` says what to ask for.
+    pub fn check_sets(self, sets: &str, bytes: u64, remedy: &str) -> Result<(), Failure> {
+        if bytes <= self.bytes {
+            return Ok(());
+        }
+        let (needed, free) = (bytes.div_ceil(1 << 20), self.bytes >> 20);
+        let told = format!(
+            "about {needed} MiB of memory are needed for {sets}, and {free} MiB are free: {remedy}, or use a machine \
+             with more memory"
+        );
+        Err(Failure::new(Exit::Capacity, told))
     }
 
     /// Refuses more points than fit.
@@ -218,6 +236,12 @@ mod tests {
         assert_eq!((memory.check_points(2), memory.input_bytes()), (Ok(()), POINT_BYTES));
         assert!(memory.check_points(3).is_err_and(|failure| failure.message.contains("more than 2 points")));
         assert!(memory.check_triangles(4).is_ok() && memory.check_triangles(5).is_err());
+        assert_eq!(memory.check_sets("two points", Memory::of_points(2), "ask for one"), Ok(()));
+        let failure = Memory::of_bytes(3 * MIB).check_sets("all points", 4 * MIB + 1, "ask for less");
+        let failure = failure.expect_err("not enough memory");
+        let told =
+            "about 5 MiB of memory are needed for all points, and 3 MiB are free: ask for less, or use a machine";
+        assert!(failure.exit == Exit::Capacity && failure.message.starts_with(told), "{failure}");
         assert!(Memory::free().most_points() > 1000);
     }
 }

@@ -11,7 +11,11 @@ use crate::trace::Trace;
 /// Makes a core of this configuration, with or without runs. With `trace` a waveform of all its signals goes to that
 /// file, which is complete once the device is dropped.
 pub fn open(config: Config, has_runs: bool, trace: Option<Trace<'_>>) -> Result<Device, Failure> {
-    let no_device = |error: SimError| Failure::new(Exit::NoDevice, error.to_string());
+    let no_device = |error: SimError| match error {
+        // Runs are asked for by the address alone, so this error is about a choice of the caller.
+        SimError::NoRuns { .. } => Failure::usage(error.to_string()),
+        error => Failure::new(Exit::NoDevice, error.to_string()),
+    };
     let device = match trace {
         Some(_) if has_runs => {
             return Err(Failure::usage(

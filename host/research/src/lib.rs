@@ -6,7 +6,7 @@
 //!
 //! The package also compares the mesh that lives, constrained meshes and values between points with those of other
 //! libraries, and ways to fill the hole of a vertex that is deleted. It counts the cycles of questions and changes on
-//! the core's living engine.
+//! the core's living engine, and of features that a camera tracks on the core with runs.
 //!
 //! Nothing here ships with the product. `cargo run --release -p incircle-research -- figures` makes
 //! all published figures again.
@@ -25,6 +25,7 @@ mod picture;
 mod plans;
 pub mod prepare;
 mod runs;
+mod tracks;
 mod values;
 
 pub use figures::{figures, FiguresArguments};
@@ -35,4 +36,5 @@ pub use orders::{orders, Failure, OrdersArguments};
 pub use picture::{picture, PictureArguments};
 pub use plans::{plans, PlansArguments};
 pub use runs::{runs, RunsArguments};
+pub use tracks::{tracks, TracksArguments};
 pub use values::{values, ValuesArguments};

@@ -3,9 +3,11 @@
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use incircle_research::{figures, holes, living, orders, picture, plans, runs, values};
+use incircle_research::{figures, holes, living, orders, picture, plans, runs, tracks, values};
 use incircle_research::{FiguresArguments, HolesArguments, LivingArguments};
-use incircle_research::{OrdersArguments, PictureArguments, PlansArguments, RunsArguments, ValuesArguments};
+use incircle_research::{
+    OrdersArguments, PictureArguments, PlansArguments, RunsArguments, TracksArguments, ValuesArguments,
+};
 
 /// Measure and draw the orders of insertion of the literature
 #[derive(Debug, Parser)]
@@ -41,6 +43,9 @@ enum Command {
     /// Count the cycles of questions and changes of a standing mesh on the model of the core, clock by clock
     #[command(after_help = "Example:\n  incircle-research runs uniform --random")]
     Runs(RunsArguments),
+    /// Count the cycles of a mesh of features that a camera tracks, beside a mesh made anew and the processor
+    #[command(after_help = "Example:\n  incircle-research tracks -n 4000")]
+    Tracks(TracksArguments),
     /// Count the values between points a second, beside those of CGAL where it is installed
     #[command(after_help = "Example:\n  incircle-research values -n 1000000 --threads 2")]
     Values(ValuesArguments),
@@ -55,6 +60,7 @@ fn main() -> ExitCode {
         Command::Holes(arguments) => holes(arguments),
         Command::Plans(arguments) => plans(arguments),
         Command::Runs(arguments) => runs(arguments),
+        Command::Tracks(arguments) => tracks(arguments),
         Command::Values(arguments) => values(arguments),
     };
     match result {

@@ -230,7 +230,7 @@ impl CommandChannel {
         }
         let during = "the restart";
         let is_back = self.transport.recover(limit.deadline()).map_err(|source| match source {
-            TransportError::Timeout { .. } => Error::Timeout { device: self.name(), during, timeout: limit.timeout() },
+            TransportError::Timeout { .. } => limit.missed(self.name(), during),
             source => Error::Link { device: self.name(), during, source },
         })?;
         self.is_out_of_step &= !is_back;
@@ -262,7 +262,7 @@ impl CommandChannel {
     }
 
     fn late(&self, opcode: Opcode, limit: Limit) -> Error {
-        Error::Timeout { device: self.name(), during: opcode_name(opcode), timeout: limit.timeout() }
+        limit.missed(self.name(), opcode_name(opcode))
     }
 }
 

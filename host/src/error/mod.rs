@@ -230,16 +230,18 @@ pub enum Error {
     },
     /// The device did not answer in time.
     #[error(
-        "{device} did not finish {during} within {} s: allow a longer time, or check the device",
-        timeout.as_secs_f64()
+        "{device} did not finish {during} within {}: allow a longer time, or check the device",
+        within(*timeout, *ahead)
     )]
     Timeout {
         /// Name of the device.
         device: String,
         /// Noun for the command under way, such as `"the insertion"`.
         during: &'static str,
-        /// Time that the device was given.
+        /// Time that the device was given: in a batch that of this job, or that of all jobs that share it.
         timeout: Duration,
+        /// Time that the device was given beyond that, for jobs of the batch that were sent ahead; otherwise 0.
+        ahead: Duration,
     },
     /// The device gave an answer that no sound device gives.
     #[error(
@@ -260,7 +262,7 @@ pub enum Error {
         device: String,
     },
     /// A job of a batch cannot be done.
-    #[error("job {job} of the batch: {source}")]
+    #[error("job {job} of the batch, counted from 0: {source}")]
     InJob {
         /// Index of the job in the batch, from 0.
         job: usize,
@@ -326,4 +328,13 @@ impl Error {
             Self::InJob { source, .. } => source.kind(),
         }
     }
+}
+
+/// The time that a device was given, as [`Error::Timeout`] tells it.
+fn within(timeout: Duration, ahead: Duration) -> String {
+    let own = format!("{} s", timeout.as_secs_f64());
+    if ahead.is_zero() {
+        return own;
+    }
+    format!("{own} and {} s more for the jobs sent ahead", ahead.as_secs_f64())
 }

@@ -9,7 +9,7 @@ use incircle::living::{Error as Refusal, Location, Triangulation};
 use incircle::transports::{AnswerHead, ClockTransport};
 use incircle::{Device, Error, ErrorKind, LivingMesh, LivingSession, Point, Transport, TransportError};
 use incircle_model::ChipModel;
-use incircle_protocol::{Command, Config, Opcode, SMALL};
+use incircle_protocol::{signed_header, Command, Config, Opcode, RunKind, FEATURES_SHIFT, IDENTITY_WORDS, SMALL};
 use incircle_testkit::SplitMix64;
 
 /// The places of a script: small lattices, lines, points of a circle.
@@ -193,16 +193,16 @@ fn core(number: usize) -> (Device, u32) {
     (Device::clock_model(config).expect("a core"), points)
 }
 
-/// A core of this configuration that has the runs of the hardware: it has no command to move a vertex.
-fn without_moves(config: Config) -> ClockTransport {
+/// A core of this configuration that does runs clock by clock as the hardware does.
+fn core_with_runs(config: Config) -> ClockTransport {
     ClockTransport::around(ChipModel::new(config).expect("a core").with_questions(), config)
 }
 
-/// The model clock by clock for the script of this number, with the runs that the hardware has, and its capacity.
+/// The model of the hardware clock by clock for the script of this number, and its capacity.
 fn hardware(number: usize) -> (Device, u32) {
     let (points, contexts) = ([64, 16, 8, 256][number % 4], [16, 4, 1, 16, 7][number % 5]);
     let config = Config { name: "test", points, ring: [32, 6, 12][number % 3], contexts, engines: 1 };
-    (Device::from_transport(Box::new(without_moves(config))), points)
+    (Device::from_transport(Box::new(core_with_runs(config))), points)
 }
 
 /// Runs scripts on devices, and returns how often the memory was full.
@@ -267,7 +267,7 @@ fn many_scripts_on_the_core_agree_with_the_host() {
 }
 
 #[test]
-fn hundreds_of_scripts_on_a_core_without_deletions_agree_with_the_host() {
+fn hundreds_of_scripts_on_the_model_of_the_hardware_agree_with_the_host() {
     let refused = run(hardware, 255, 300);
     assert!(refused > 10, "the memory was full {refused} times");
 }
@@ -275,14 +275,33 @@ fn hundreds_of_scripts_on_a_core_without_deletions_agree_with_the_host() {
 /// `INCIRCLE_SCRIPTS` says how many scripts run.
 #[test]
 #[ignore = "takes as long as the variable INCIRCLE_SCRIPTS says"]
-fn many_scripts_on_a_core_without_deletions_agree_with_the_host() {
+fn many_scripts_on_the_model_of_the_hardware_agree_with_the_host() {
     let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
     run(hardware, 256, scripts.unwrap_or(10_000));
 }
 
-/// A transport that counts the commands `Clear` and `InsertAs`.
+/// Scripts on a core that hides its moves, and on one that hides its deletions, too: the host makes these changes.
+#[test]
+fn scripts_on_cores_without_moves_or_deletions_agree_with_the_host() {
+    let without_moves = |number| hiding(number, &[RunKind::Move]);
+    let refused = run(without_moves, 257, 100);
+    assert!(refused > 3, "the memory was full {refused} times");
+    run(|number| hiding(number, &[RunKind::Move, RunKind::Delete]), 258, 100);
+}
+
+/// As [`hardware`], without runs of these kinds.
+fn hiding(number: usize, hidden: &[RunKind]) -> (Device, u32) {
+    let (points, contexts) = ([64, 16, 8, 256][number % 4], [16, 4, 1, 16, 7][number % 5]);
+    let config = Config { name: "test", points, ring: [32, 6, 12][number % 3], contexts, engines: 1 };
+    let hidden = hidden.iter().fold(0, |hidden, kind| hidden | kind.feature());
+    let transport = Counted { inner: core_with_runs(config), hidden, seen: Rc::default() };
+    (Device::from_transport(Box::new(transport)), points)
+}
+
+/// A transport that counts the commands `Clear` and `InsertAs`, and hides some features of its device.
 struct Counted {
     inner: ClockTransport,
+    hidden: u32,
     seen: Rc<Cell<[usize; 2]>>,
 }
 
@@ -304,7 +323,11 @@ impl Transport for Counted {
         payload: &mut [u32],
         deadline: Instant,
     ) -> Result<AnswerHead, TransportError> {
-        self.inner.receive(head, payload, deadline)
+        let head = self.inner.receive(head, payload, deadline)?;
+        if [signed_header(head[0], 0, 0), head[1]] == [(Opcode::Hello as u32) << 24, IDENTITY_WORDS as u32] {
+            payload[6] &= !(self.hidden << FEATURES_SHIFT);
+        }
+        Ok(head)
     }
 }
 
@@ -313,7 +336,8 @@ impl Transport for Counted {
 #[test]
 fn a_core_without_moves_makes_the_mesh_anew_once_for_many_changes() {
     let seen = Rc::new(Cell::new([0; 2]));
-    let transport = Counted { inner: without_moves(SMALL), seen: Rc::clone(&seen) };
+    let hidden = RunKind::Move.feature();
+    let transport = Counted { inner: core_with_runs(SMALL), hidden, seen: Rc::clone(&seen) };
     let mut device = Device::from_transport(Box::new(transport));
     let mut session = device.session().expect("a session");
     assert!(session.keeps_living_meshes());

@@ -69,8 +69,8 @@ impl ChipModel {
         self
     }
 
-    /// The same chip with the runs that the hardware has so far, if it is a single engine: `Locate`, `Interpolate`,
-    /// `Nearest` and `InsertAs`. Its identity offers these.
+    /// The same chip with runs as the hardware does them, clock by clock, if it is a single engine. Its identity offers
+    /// these.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         if let [only] = &mut self.engines[..] {

@@ -19,6 +19,7 @@ mod contexts;
 mod counters;
 mod defect;
 mod holes;
+mod late_point;
 mod living;
 mod memory;
 mod outcome;
@@ -43,6 +44,7 @@ use attempts::Tables;
 use counters::Latencies;
 use holes::Holes;
 use incircle_protocol::{Config, ConfigError};
+use late_point::LatePoint;
 use living::LivingEngine;
 use memory::Memory;
 use pipeline::Pipeline;
@@ -218,11 +220,12 @@ impl ClockModel {
         now.starter.clock(&was, &wires, &self.tables, &mut self.memory, self.defect);
         self.ring.clock(wires.head_is_taken, wires.outcome.as_ref(), &self.memory);
         let takes_new = wires.solo_inserts && self.memory.kept(was.solo.vertex()).is_none();
-        now.commit.clock(&was, wires.head, &mut self.memory, takes_new, wires.seeds);
+        now.commit.clock(&was, wires.head, &mut self.memory, takes_new, wires.seeds, wires.holds);
         self.tables.clock(&wires, &mut self.memory);
         self.memory.clock(&was, &wires);
         self.release.clock(&wires, &mut self.memory, self.config, self.defect);
         now.write.clock(&was);
+        now.late_point = LatePoint::after(was.late_point, &wires);
         if let Some(write) = living_write {
             now.write = write;
         }

@@ -130,8 +130,8 @@ impl CommandModel {
         self
     }
 
-    /// The same model with those runs that a core with runs has, and no others: `Locate`, `Interpolate`, `Nearest`,
-    /// `InsertAs` and `Delete`. Its identity offers these.
+    /// The same model with the runs that a core with runs has. Its identity offers them one by one, as that of a core
+    /// does.
     #[must_use]
     pub fn with_questions(mut self) -> Self {
         self.identity.features |= protocol::CORE_RUNS;

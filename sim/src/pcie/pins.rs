@@ -13,6 +13,8 @@ use crate::models;
 
 /// Prefix that the build script puts before the name of a configuration; the bits of a beat follow behind it.
 const STREAM: &str = "stream_";
+/// The same for cards whose core has runs.
+const LIVING: &str = "living_stream_";
 /// Number of clocks for which the reset of the bus is held, more than a device needs.
 const RESET_CLOCKS: u32 = 64;
 /// Number of clocks within which a device must come out of its reset.
@@ -93,10 +95,24 @@ impl PinCard {
     /// [`SimError::NoCard`]: such cards were not translated when this crate was built, or the card does not come
     /// out of its reset.
     pub fn new(config: Config, beat_bits: u32) -> Result<Self, SimError> {
-        let name = format!("{STREAM}{}_{beat_bits}", config.name);
+        Self::of(STREAM, config, beat_bits)
+    }
+
+    /// A card with the core with runs of this configuration and beats of `beat_bits` bits, after its reset.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn living(config: Config, beat_bits: u32) -> Result<Self, SimError> {
+        Self::of(LIVING, config, beat_bits)
+    }
+
+    /// The card whose model has a name with this prefix.
+    fn of(prefix: &str, config: Config, beat_bits: u32) -> Result<Self, SimError> {
+        let name = format!("{prefix}{}_{beat_bits}", config.name);
         let missing = || {
-            let built = models::NAMES.iter().filter_map(|name| name.strip_prefix(STREAM)).collect::<Vec<_>>();
-            SimError::NoCard { name: format!("{}_{beat_bits}", config.name), built: built.join(", ") }
+            let built = models::NAMES.iter().filter_map(|name| name.strip_prefix(prefix)).collect::<Vec<_>>();
+            let runs = if prefix == LIVING { " with runs" } else { "" };
+            SimError::NoCard { name: format!("{}_{beat_bits}{runs}", config.name), built: built.join(", ") }
         };
         let model = Model::new(models::find(&name).ok_or_else(missing)?);
         let ports = Ports::of(&model)?;

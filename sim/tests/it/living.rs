@@ -7,6 +7,7 @@ use incircle::{Device, Error, ErrorKind, LivingMesh, Point, Triangulation};
 use incircle_protocol::{RunKind, FULL, SMALL, TINY};
 use incircle_sim::{SimDevice, SimError, SimTransport};
 use incircle_testkit::SplitMix64;
+use std::process::Command;
 
 fn device() -> Device {
     let core = SimDevice::living(SMALL).expect("the core was built");
@@ -100,9 +101,27 @@ fn agrees_over_serial(name: &str, arguments: &[&str], slow: u32, rounds: usize) 
     let link = folder.join("board");
     let mut command = service::program(&["serve", "--living", "--slow", &slow.to_string()]);
     command.args(arguments).arg("--link").arg(&link);
+    let said = agrees(command, &format!("serial:{}?slow={slow}", link.display()), rounds);
+    std::fs::remove_dir_all(folder).expect("a folder of our own");
+    said
+}
+
+/// The same core behind the Verilog of the stream link, with the system calls of a driver.
+#[test]
+fn random_changes_at_the_pins_of_a_card_agree_with_the_processor() {
+    let folder = std::env::temp_dir().join(format!("incircle-living-card-{}", std::process::id()));
+    let mut command = service::program(&["serve-pcie", "--living", "--fault", "short-read=0.1,short-write=0.1"]);
+    command.arg("--dir").arg(&folder);
+    agrees(command, &format!("pcie:{}", folder.display()), 12);
+    std::fs::remove_dir(folder).expect("an empty folder");
+}
+
+/// Runs random changes and questions on the device that a command serves at this address, and returns what the command
+/// says in the end.
+fn agrees(command: Command, address: &str, rounds: usize) -> String {
     let (child, line) = service::start(command);
     assert!(line.starts_with("ready: "), "{line}");
-    let mut device = Device::open(&format!("serial:{}?slow={slow}", link.display())).expect("the terminal");
+    let mut device = Device::open(address).expect("the device");
     let mut session = device.session().expect("a session");
     let mut mesh = session.living().expect("the core has enough runs");
     let mut host = Triangulation::new();
@@ -118,7 +137,6 @@ fn agrees_over_serial(name: &str, arguments: &[&str], slow: u32, rounds: usize) 
     drop(device);
     let (status, said) = service::end(child, "-TERM");
     assert_eq!(status.code(), Some(0), "{said}");
-    std::fs::remove_dir_all(folder).expect("a folder of our own");
     said
 }
 
@@ -151,7 +169,7 @@ fn the_identity_says_which_runs_the_core_has() {
     let mut device = device();
     let session = device.session().expect("a session");
     let taken = RunKind::ALL.map(|kind| session.identity().takes(kind));
-    assert_eq!(taken, [true, true, true, true, true, false]);
+    assert_eq!(taken, [true, true, true, true, true, true]);
     assert!(session.keeps_living_meshes());
 }
 
@@ -162,6 +180,6 @@ fn cores_with_runs_that_were_not_built_are_refused_with_a_sentence() {
         assert!(!SimDevice::has_living(config));
         let error = SimDevice::living(config).expect_err("not built");
         assert!(matches!(error, SimError::NoRuns { .. }), "{error}");
-        assert!(error.to_string().contains("with runs: choose one of small"), "{error}");
+        assert!(error.to_string().contains("with runs: choose small, or the back end clock"), "{error}");
     }
 }

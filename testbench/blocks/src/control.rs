@@ -10,9 +10,9 @@ use incircle_hdl::commands::{
 };
 use incircle_hdl::engine::{
     AttemptLists, AttemptPoints, AttemptStep, AttemptStore, Attempts, Commit, ContextFlags, Counters, FinishedPoints,
-    FreshIds, HoleFill, HoleRecords, InnerList, JobQueue, Latencies, LatencyBucket, LatencyRange, NextPoint,
-    NextVisits, PlanTable, Priorities, PushPort, Release, RingReader, Seeder, Solo, SoloVisit, SoloWrites, StarId,
-    Starter, VisitCase, Watchdog, WideCounter,
+    FreshIds, HoleFill, HoleMerge, HoleRecords, InnerList, JobQueue, KeptEdges, LatePoint, Latencies, LatencyBucket,
+    LatencyRange, MovedVertex, NextPoint, NextVisits, PlanTable, Priorities, PushPort, Release, RingReader, Seeder,
+    Solo, SoloVisit, SoloWrites, StarId, Starter, VisitCase, Watchdog, WideCounter,
 };
 
 /// Name of the root module and Verilog of each block.
@@ -30,7 +30,11 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(ContextFlags::default(), "context_flags"),
         block(FreshIds::default(), "fresh_ids"),
         block(HoleFill::new(Config { contexts: 8, ring: 32, ..TINY }), "hole_fill"),
+        block(HoleMerge::default(), "hole_merge"),
         block(HoleRecords::default(), "hole_records"),
+        block(KeptEdges::default(), "kept_edges"),
+        block(LatePoint::default(), "late_point"),
+        block(MovedVertex::new(Config { contexts: 8, ..TINY }), "moved_vertex"),
         block(InnerList::new(TINY), "inner_list_6"),
         block(InnerList::new(longest_list), "inner_list_64"),
         block(JobQueue::<6>::new(2), "job_queue_2x6"),

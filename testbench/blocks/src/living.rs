@@ -4,8 +4,8 @@ use incircle_protocol::{Config, FULL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::living::{
-    ChangeEnds, ItemQueues, LatePoints, NearSearch, PartQueue, QuestionStep, Questions, RunGate, RunPort, StandingView,
-    VertexCheck,
+    ChangeEnds, ItemQueues, LatePoints, NearSearch, PartQueue, QuestionStep, Questions, ReturnLine, RunGate, RunPort,
+    StandingView, VertexCheck,
 };
 
 /// Name of the root module and Verilog of each block.
@@ -17,6 +17,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(NearSearch::new(most_contexts), "living_near_search"),
         block(QuestionStep::new(most_contexts), "living_question_step"),
         block(PartQueue::default(), "living_part_queue"),
+        block(ReturnLine::new(Config { contexts: 8, ..TINY }), "return_line"),
         block(RunPort::default(), "living_run_port"),
         block(RunGate::default(), "living_run_gate"),
         block(StandingView::default(), "living_standing_view"),

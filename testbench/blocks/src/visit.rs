@@ -1,11 +1,11 @@
 //! The blocks that a visit passes: memories, queue, reader, verdict, attempt and the writes that follow.
 
-use incircle_protocol::{SMALL, TINY};
+use incircle_protocol::{Config, SMALL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::engine::{
-    Issue, LinkWrite, NearCorner, NearLogic, RecordWrite, SeedWrites, VerdictLogic, VisitJudge, VisitPipeline,
-    VisitReader, WritePort,
+    Issue, LinkWrite, MovedStar, NearCorner, NearLogic, RecordWrite, SeedWrites, VerdictLogic, VisitJudge,
+    VisitPipeline, VisitReader, WritePort,
 };
 use incircle_hdl::mesh::{LockStore, TriangleStore, VertexStore};
 
@@ -19,6 +19,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(VertexStore::new(3), "vertex_store_3"),
         block(VertexStore::new(14), "vertex_store_14"),
         block(Issue::new(5), "issue_5"),
+        block(MovedStar::new(Config { contexts: 8, ..TINY }), "moved_star"),
         block(VisitReader::default(), "visit_reader"),
         block(VerdictLogic::default(), "verdict_logic"),
         block(NearCorner::default(), "near_corner"),

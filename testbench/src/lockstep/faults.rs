@@ -195,8 +195,8 @@ pub const QUESTION_FAULTS: &[Fault] = &[
         name: "gate_passes_interpolate_on",
         pieces: &[piece(
             "begins = @;",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == nearest_code) | (code == insert_code) | (code == delete_code))",
-            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == nearest_code) | (code == insert_code) | (code == delete_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == interpolate_code) | (code == nearest_code) | (code == insert_code) | (code == delete_code) | (code == move_code))",
+            "command$valid & standing[(64'h0)+:(1)] & (~is_active) & ((code == locate_code) | (code == nearest_code) | (code == insert_code) | (code == delete_code) | (code == move_code))",
         )],
     },
     Fault { name: "gate_passes_nearest_on", pieces: &[piece("nearest_code = @;", "32'ha", "32'h8")] },
@@ -320,7 +320,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "duplicate_stays_in_use",
         pieces: &[piece(
             "unmarks = @;",
-            "(events[(64'h1)+:(1)] & (~is_delete)) | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))",
+            "((events[(64'h1)+:(1)] & (~is_delete)) | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))) & (~is_move)",
             "1'b0",
         )],
     },
@@ -352,7 +352,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     Fault { name: "item_begins_beside_a_visit", pieces: &[piece("events[(64'h3e)+:(1)] = @ &", "(~may_ask)", "1'b1")] },
     Fault {
         name: "item_begins_beside_a_start",
-        pieces: &[piece("& @ & (~contexts[(64'h90)", "(~start[(64'h0)+:(1)])", "1'b1")],
+        pieces: &[piece("& @ & (~is_last_chance)", "(~start[(64'h0)+:(1)])", "1'b1")],
     },
     // M13.
     Fault {
@@ -367,13 +367,13 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "refusal_takes_no_place",
         pieces: &[piece(
             "parts$begins = @;",
-            "(launches & port$is_active) | changes$is_noted",
-            "launches & port$is_active",
+            "(begins_item & port$is_active) | changes$is_noted",
+            "begins_item & port$is_active",
         )],
     },
     Fault {
         name: "part_of_a_commit_goes_lost",
-        pieces: &[piece("done$pop = @;", "done$valid & (~is_early)", "done$valid")],
+        pieces: &[piece("pops = @;", "done$valid & (~is_early)", "done$valid")],
     },
     // M2, M4, M5, M6, M8: the rules of deletions.
     Fault {
@@ -384,10 +384,13 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "foreign_locks_of_stars_are_ignored",
         pieces: &[
             piece("refused = @;", "is_live & is_foreign & (~is_awaited)", "1'b0"),
-            piece("counts = @;", "is_live & (~is_foreign)", "is_live & (~is_awaited)"),
+            piece("counts = @;", "is_live & (~is_foreign) & (~is_torn)", "is_live & (~is_awaited)"),
         ],
     },
-    Fault { name: "nobody_waits_at_a_star", pieces: &[piece("again = @;", "is_live & is_awaited", "1'b0")] },
+    Fault {
+        name: "nobody_waits_at_a_star",
+        pieces: &[piece("again = @;", "is_live & (is_awaited | is_torn)", "1'b0")],
+    },
     Fault {
         name: "locks_of_a_star_are_released_too_soon",
         pieces: &[piece(
@@ -413,5 +416,44 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     Fault { name: "side_of_a_hole_is_not_mended", pieces: &[piece("third = @;", "side$write", "110'b0")] },
     Fault { name: "kept_ids_are_forgotten", pieces: &[piece("has_ids = @;", "owned$q", "1'b0")] },
     Fault { name: "free_records_are_read_out", pieces: &[piece("lives = comes & @ &", "(~is_free)", "1'b1")] },
+    // M12, M14: the rules of moves.
+    Fault { name: "edges_are_not_looked_at", pieces: &[piece("stays = @;", "(~turns_left) | conflict", "1'b1")] },
+    Fault { name: "records_outside_are_not_looked_at", pieces: &[piece("keeps = @;", "~conflict", "1'b1")] },
+    Fault {
+        name: "last_edge_is_not_looked_at",
+        pieces: &[piece("keeps = @;\n        end\n        root_left", "stays", "1'b1")],
+    },
+    Fault {
+        name: "vertices_of_the_hull_move_in_place",
+        pieces: &[piece("(keeps_all & (@))", "~held[(64'h2a)+:(1)]", "1'b1")],
+    },
+    Fault { name: "chains_carry_one_vertex", pieces: &[piece("fetch_id = @;", "right$read_data", "left$read_data")] },
+    Fault {
+        name: "stars_are_judged_by_the_old_place",
+        pieces: &[piece("is_moved1$d = @;", "(~is_out) & (visit[(64'h6)+:(1)] | is_last_edge)", "1'b0")],
+    },
+    Fault { name: "own_place_is_another_one", pieces: &[piece("is_kept = moves & (@ |", "stays", "1'b0")] },
+    Fault {
+        name: "torn_points_count",
+        pieces: &[piece("torn2$d = @ |", "(written1$q[(64'h0)+:(1)] & is_written)", "1'b0")],
+    },
+    Fault { name: "fetch_beside_a_write_counts", pieces: &[piece("| @;\n        torn3$d", "meets_write1$q", "1'b0")] },
+    Fault { name: "point_of_a_move_is_not_written", pieces: &[piece("if (@) begin", "late$0$writes", "1'b0")] },
+    Fault {
+        name: "vertex_is_read_before_its_late_point",
+        pieces: &[piece("fetches$0 = pipeline$fetches$0 | @ |", "late$0$waits", "1'b0")],
+    },
+    Fault {
+        name: "commit_writes_beside_a_hole",
+        pieces: &[piece("commits$holds$0 = @;", "holes$0$writes_next", "1'b0")],
+    },
+    Fault {
+        name: "last_edge_is_asked_for_beside_a_launch",
+        pieces: &[piece("kind$may_ask | opens | @;", "step$may_close", "1'b0")],
+    },
+    Fault {
+        name: "vertex_that_has_moved_is_missing",
+        pieces: &[piece("remarks = is_refused | @ |", "is_moved", "1'b0")],
+    },
     Fault { name: "test_pushes_beside_a_visit", pieces: &[piece("pushes = asks & @ &", "(~asks_or_may)", "1'b1")] },
 ];

@@ -80,8 +80,10 @@ pub struct Attempts {
     /// In a core with changes: the vertex that the context of the completed visit inserts.
     pub vertex: Vec<Signal<Out, VertexId>>,
     /// In such a core, for the visit that completes: its record is free (M8), or names the vertex of its context, which
-    /// counts in a run of deletions.
-    pub deletes: Vec<Signal<In, Bit>>,
+    /// counts if the visit is one of a deletion or of a move whose vertex is in the mesh (`finds`); and whether the
+    /// visit that completes in the next clock is such a one.
+    pub early_finds: Vec<Signal<In, Bit>>,
+    pub finds: Vec<Signal<In, Bit>>,
     pub is_free: Vec<Signal<In, Bit>>,
     pub names: Vec<Signal<In, Bit>>,
     store: AttemptStore,
@@ -111,7 +113,8 @@ impl Attempts {
     pub fn with_changes(config: Config) -> Self {
         Self {
             vertex: vec![Signal::default()],
-            deletes: vec![Signal::default()],
+            early_finds: vec![Signal::default()],
+            finds: vec![Signal::default()],
             is_free: vec![Signal::default()],
             names: vec![Signal::default()],
             ..Self::new(config)
@@ -193,9 +196,11 @@ impl Logic for Attempts {
             if self.is_free[i].val() {
                 self.meaning.verdict.next.conflict = false;
             }
-            if self.deletes[i].val() {
+            if self.finds[i].val() {
                 self.meaning.verdict.next.conflict = self.names[i].val();
                 self.meaning.verdict.next.falls_onto_corner = false;
+            }
+            if self.early_finds[i].val() {
                 self.meaning.early.next.done = self.early.val().done & (!self.early_visit.val().rotates);
             }
         }

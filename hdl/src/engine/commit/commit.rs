@@ -53,8 +53,10 @@ pub struct Commit {
     pub committed: Signal<Out, Committed>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
-    /// In a core with deletions: the first entry of a ring is taken at this edge.
+    /// In a core with deletions: the first entry of a ring is taken at this edge; and the write port is taken at the next
+    /// edge, so that the commit waits (`holds`).
     pub loads: Vec<Signal<Out, Bit>>,
+    pub holds: Vec<Signal<In, Bit>>,
     ring: DFF<CommitJob>,
     first: DFF<Entry>,
     current: DFF<Entry>,
@@ -80,7 +82,12 @@ impl Commit {
 
     /// The commit of a core with deletions.
     pub fn with_deletions(config: Config) -> Self {
-        Self { loads: vec![Signal::default()], ..Self::new(config) }
+        Self {
+            loads: vec![Signal::default()],
+            holds: vec![Signal::default()],
+            steps: CommitSteps::with_deletions(),
+            ..Self::new(config)
+        }
     }
 }
 
@@ -156,6 +163,7 @@ impl Logic for Commit {
         }
         for i in 0..self.loads.len() {
             self.loads[i].next = self.steps.loads.val();
+            self.steps.holds[i].next = self.holds[i].val();
         }
         if self.reset.val() {
             self.request.d.next.valid = false;

@@ -49,9 +49,11 @@ pub struct CommitPath {
     pub released: Signal<Out, Released>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// In a core with deletions: a context that starts, and whether ids are kept for its vertex; ids that a vertex
+    /// In a core with deletions: a deletion requests a write in the next clock, so that a commit waits (`holds`), and
+    /// never both; a context that starts, and whether ids are kept for its vertex; ids that a vertex
     /// keeps; the last write of a deletion is requested; a solo insertion starts or is at work, and its two ids; ids
     /// that were kept are in use again.
+    pub holds: Vec<Signal<In, Bit>>,
     pub start: Vec<Signal<In, Start>>,
     pub owns: Vec<Signal<In, Bit>>,
     pub kept: Vec<Signal<In, KeptWrite>>,
@@ -87,6 +89,7 @@ impl CommitPath {
         Self {
             star: Commit::with_deletions(config),
             ids: FreshIds::with_deletions(),
+            holds: vec![Signal::default()],
             start: vec![Signal::default()],
             owns: vec![Signal::default()],
             kept: vec![Signal::default()],
@@ -151,6 +154,7 @@ impl Logic for CommitPath {
         // A vertex that comes back takes the two ids that were kept for it, and no new ones.
         for i in 0..self.kept_ids.len() {
             self.kept_ids[i].clock.next = self.clock.val();
+            self.star.holds[i].next = self.holds[i].val();
             self.kept_ids[i].start.next = self.start[i].val();
             self.kept_ids[i].owns.next = self.owns[i].val();
             self.kept_ids[i].kept.next = self.kept[i].val();

@@ -3,6 +3,7 @@
 //! 1. An entry is taken as soon as it is on the head, unless its record must wait for the id of an inner record.
 //! 2. The link of the outside record is written between two records, if that record must learn a new id.
 //! 3. The record of the first entry is written last, because it needs the id of the last one.
+//! 4. While `holds` is set, nothing is taken or written, and the state stays.
 //!
 //! Latency: 1 clock; `takes` is a function of registers and `awaits_id`.
 
@@ -46,6 +47,8 @@ pub struct CommitSteps {
     pub is_close: Signal<Out, Bit>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
+    /// In a core with deletions: the write port is taken at the next edge.
+    pub holds: Vec<Signal<In, Bit>>,
     state: DFF<CommitState>,
     /// The state takes an entry, unless it must wait for the id of an inner record. A register of its
     /// own keeps `takes` short.
@@ -60,6 +63,13 @@ pub struct CommitSteps {
     waits: Signal<Local, Bit>,
     begins: Signal<Local, Bit>,
     goes_on: Signal<Local, Bit>,
+}
+
+impl CommitSteps {
+    /// The steps of a core with deletions.
+    pub fn with_deletions() -> Self {
+        Self { holds: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for CommitSteps {
@@ -117,6 +127,21 @@ impl Logic for CommitSteps {
                 if self.begins.val() {
                     self.state.d.next = CommitState::Record;
                 }
+            }
+        }
+        for i in 0..self.holds.len() {
+            if self.holds[i].val() {
+                self.takes.next = false;
+                self.loads.next = false;
+                self.advances.next = false;
+                self.is_link.next = false;
+                self.is_close.next = false;
+                self.state.d.next = self.state.q.val();
+                self.wants.d.next = self.wants.q.val();
+                self.current_is_last.d.next = self.current_is_last.q.val();
+                self.needs_link.d.next = self.needs_link.q.val();
+                self.current_opens.d.next = self.current_opens.q.val();
+                self.closes.d.next = self.closes.q.val();
             }
         }
         if self.reset.val() {

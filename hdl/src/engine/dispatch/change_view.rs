@@ -1,12 +1,13 @@
 //! Collects the events that end the items of a run of changes, and says whether an item can begin.
 //!
-//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context starts, and no
-//!    context asks for a solo insertion or is at one. So the queue of visits takes one bundle a clock.
+//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context starts, no
+//!    context asks for a solo insertion or is at one, and no point must be written. So the queue of visits takes one bundle a clock.
 //!
 //! Latency: none, the block is combinational.
 
 use crate::engine::types::{
-    ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, FillEnd, Outcome, SoloProgress, Start, VertexId,
+    Arrival, ChangeEvents, CommitJob, CommitRequest, Committed, ContextState, FillEnd, Moving, Outcome, SoloProgress,
+    Start, VertexId,
 };
 use rust_hdl_core::prelude::*;
 
@@ -23,7 +24,14 @@ pub struct ChangeView {
     pub contexts: Signal<In, ContextState>,
     /// A context that starts without an item, or with an item that it tries again.
     pub start: Signal<In, Start>,
-    /// A deletion whose last write is requested; and an item that ends with its hole.
+    /// The visit that completes is one of a deletion, or of a move whose vertex is in the mesh; it ends a move in place;
+    /// and a run of moves is under way.
+    pub finds: Signal<In, Bit>,
+    pub moved: Signal<In, Arrival>,
+    pub moving: Signal<In, Moving>,
+    /// A point takes its last chance of a write, see [`LatePoint`](crate::engine::LatePoint).
+    pub is_last_chance: Signal<In, Bit>,
+    /// A deletion whose last write is requested; and a hole that is full, which ends no item of a move, or flat.
     pub erased: Signal<In, Committed>,
     pub fill_end: Signal<In, FillEnd>,
     pub events: Signal<Out, ChangeEvents>,
@@ -43,12 +51,17 @@ impl Logic for ChangeView {
         self.events.next.committed_context = self.job.val().context;
         self.events.next.committed_vertex = self.job.val().vertex;
         self.erased_job.next = self.erased.val().job;
-        if self.erased.val().valid {
+        self.events.next.finds = self.finds.val();
+        self.events.next.moves_in_place = self.moved.val().came;
+        self.events.next.puts_out = self.erased.val().valid & self.moving.val().runs;
+        self.events.next.put_out_context = self.erased_job.val().context;
+        if self.erased.val().valid & (!self.moving.val().runs) {
             self.events.next.commit_ends = true;
             self.events.next.committed_context = self.erased_job.val().context;
             self.events.next.committed_vertex = self.erased_job.val().vertex;
         }
-        self.events.next.fill_ends = self.fill_end.val().valid;
+        self.events.next.fill_ends =
+            self.fill_end.val().valid & (self.fill_end.val().is_flat | (!self.moving.val().runs));
         self.events.next.fill_is_flat = self.fill_end.val().valid & self.fill_end.val().is_flat;
         self.events.next.fill_context = self.fill_end.val().context;
         self.events.next.fill_vertex = self.fill_end.val().vertex;
@@ -59,6 +72,7 @@ impl Logic for ChangeView {
         self.events.next.taken = self.start.val().id;
         self.events.next.may_launch = (!self.may_ask.val())
             & (!self.start.val().valid)
+            & (!self.is_last_chance.val())
             & (!self.contexts.val().solo_valid)
             & (!self.solo.val().is_at_work);
         self.events.next.all_rest = self.contexts.val().all_rest;

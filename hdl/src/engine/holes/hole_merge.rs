@@ -1,7 +1,7 @@
 //! Joins the effects of visits of deletions with those of the attempts.
 //!
 //! 1. A test that the fill asks for enters the queue if no completed visit may ask for visits and no context starts.
-//! 2. An item ends with its hole if no other attempt releases its locks at the same edge: that one may end an item too.
+//! 2. An item ends with its hole if the completed visit neither ends an attempt nor an item at the same edge.
 //!
 //! Latency: none, the block is combinational.
 
@@ -23,6 +23,7 @@ pub struct HoleMerge {
     pub hole_outcome: Signal<In, Outcome>,
     pub lock: Signal<In, LockWrite>,
     pub hole_lock: Signal<In, LockWrite>,
+    pub commits: Signal<In, Bit>,
     pub attempt_release: Signal<In, ReleaseRequest>,
     pub hole_release: Signal<In, ReleaseRequest>,
     pub write: Signal<In, Write>,
@@ -51,6 +52,7 @@ pub struct HoleMerge {
     pub erased_locks: Signal<Out, ReleaseRequest>,
     asks_or_may: Signal<Local, Bit>,
     releases: Signal<Local, Bit>,
+    is_taken: Signal<Local, Bit>,
     ends_now: Signal<Local, Bit>,
     job: Signal<Local, CommitJob>,
     locks: Signal<Local, ReleaseJob>,
@@ -83,8 +85,9 @@ impl Logic for HoleMerge {
 
         self.pushes.next = self.asks.val() & (!self.asks_or_may.val()) & (!self.starts.val());
         self.releases.next = self.attempt_release.val().valid | self.hole_release.val().valid;
-        self.may_end.next = !self.releases.val();
-        self.ends_now.next = self.ending.val().valid & (!self.releases.val());
+        self.is_taken.next = self.releases.val() | self.commits.val() | self.outcome.val().duplicate;
+        self.may_end.next = !self.is_taken.val();
+        self.ends_now.next = self.ending.val().valid & (!self.is_taken.val());
         self.ends.next = self.ends_now.val();
         self.granted.next = self.ending.val();
         self.granted.next.valid = self.ends_now.val();

@@ -97,7 +97,11 @@ impl Logic for HoleStep {
         if self.replaces.val() {
             self.hole_after.next.best = self.hole.val().challenger;
         }
-        self.asks.next = self.is_test.val() & (!self.ends.val());
+        // M14: a test whose point was torn says nothing.
+        if self.turned.val().again {
+            self.hole_after.next = self.hole.val();
+        }
+        self.asks.next = self.is_test.val() & ((!self.ends.val()) | self.turned.val().again);
         self.tested.next = self.hole_after.val();
 
         self.ring_end.next = self.star.val().last;
@@ -130,7 +134,7 @@ impl Logic for HoleStep {
         if self.is_test.val() {
             self.given.next.hole = self.hole_after.val();
         }
-        self.came.next.valid = self.opens.val() | (self.is_test.val() & self.ends.val());
+        self.came.next.valid = self.opens.val() | (self.is_test.val() & self.ends.val() & (!self.turned.val().again));
         self.came.next.hole = self.given.val();
 
         self.stored_hole.next = self.stored.val().hole;

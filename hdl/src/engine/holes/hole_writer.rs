@@ -30,6 +30,8 @@ pub struct HoleWriter {
     pub word: Signal<In, RingWord>,
     /// A record or a link, from a register.
     pub write: Signal<Out, Write>,
+    /// A write comes in the next clock.
+    pub writes_next: Signal<Out, Bit>,
     /// The last write of a deletion is requested; and the ids that its vertex keeps.
     pub erased: Signal<Out, Committed>,
     pub kept: Signal<Out, KeptWrite>,
@@ -146,6 +148,9 @@ impl Logic for HoleWriter {
             self.mend.d.next = self.records.third.val();
         }
         self.write.next = self.request.q.val();
+        self.writes_next.next = self.valid.q.val().get_bit(4)
+            | self.valid.q.val().get_bit(5)
+            | (self.valid.q.val().get_bit(6) & self.mend.q.val().valid);
         self.ended.next.context = self.job5.q.val().context;
         self.ended.next.vertex = self.job5.q.val().vertex;
         self.ended.next.inners = 0.into();

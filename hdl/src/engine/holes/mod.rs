@@ -1,7 +1,7 @@
-//! The deletion of vertices. [`Holes`] draws its blocks.
+//! The deletion of vertices, and their moves. [`Holes`] draws its blocks.
 //!
 //! Rules of a mesh that lives (see `docs/living-mesh.md`): M2, M8 ([`NamedVertex`]); M3 ([`StarOutcome`]); M4, M5
-//! ([`StarCase`], [`StarStep`]); M6 ([`HoleWriter`]); M8 ([`HoleRecords`]).
+//! ([`StarCase`], [`StarStep`]); M6 ([`HoleWriter`]); M8 ([`HoleRecords`]); M12 ([`KeptEdges`], [`StarStep`]).
 
 mod hole_fill;
 mod hole_merge;
@@ -11,6 +11,9 @@ mod hole_step;
 mod hole_writer;
 #[allow(clippy::module_inception)]
 mod holes;
+mod kept_edges;
+mod late_point;
+mod moved_vertex;
 mod named_vertex;
 mod next_interval;
 mod next_place;
@@ -28,6 +31,9 @@ pub use hole_ring::HoleRing;
 pub use hole_step::HoleStep;
 pub use hole_writer::HoleWriter;
 pub use holes::Holes;
+pub use kept_edges::KeptEdges;
+pub use late_point::LatePoint;
+pub use moved_vertex::MovedVertex;
 pub use named_vertex::NamedVertex;
 pub use next_interval::NextInterval;
 pub use next_place::NextPlace;

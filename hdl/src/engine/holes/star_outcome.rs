@@ -4,6 +4,7 @@
 //! 1. The record outside, which is locked, becomes an entry of the ring at the place of the visit (M3).
 //! 2. An attempt that has failed releases its locks and tries again (M4). If its ring is too long for the list, its
 //!    item ends instead, and `outcome.duplicate` says so.
+//! 3. A move in place ends its item in the same way: its locks are released after its point is written (M12).
 //!
 //! Latency: none, the block is combinational.
 
@@ -19,11 +20,13 @@ pub struct StarOutcome {
     /// The star before and after the visit.
     pub held: Signal<In, Star>,
     pub after: Signal<In, Star>,
-    /// The visit brings an entry of the ring; it is made again; it aborts the attempt; the attempt has failed.
+    /// The visit brings an entry of the ring; it waits for a lock; it aborts the attempt; the attempt has failed.
     pub settles: Signal<In, Bit>,
-    pub revisits: Signal<In, Bit>,
+    pub waits: Signal<In, Bit>,
     pub aborts: Signal<In, Bit>,
     pub fails: Signal<In, Bit>,
+    /// The visit ends a move in place.
+    pub ends_in_place: Signal<In, Bit>,
     pub entry: Signal<Out, EntryWrite>,
     pub lock: Signal<Out, LockWrite>,
     pub releases: Signal<Out, ReleaseRequest>,
@@ -31,6 +34,7 @@ pub struct StarOutcome {
     settled: Signal<Local, Entry>,
     locks: Signal<Local, ReleaseJob>,
     ends_item: Signal<Local, Bit>,
+    ends: Signal<Local, Bit>,
 }
 
 impl Logic for StarOutcome {
@@ -52,15 +56,16 @@ impl Logic for StarOutcome {
         self.lock.next.id = self.visit.val().record;
         self.locks.next.context = self.visit.val().context;
         self.locks.next.locks = self.after.val().logged;
-        self.releases.next.valid = self.fails.val();
+        self.ends.next = self.fails.val() | self.ends_in_place.val();
+        self.releases.next.valid = self.ends.val();
         self.releases.next.job = self.locks.val();
-        self.ends_item.next = self.fails.val() & self.after.val().is_too_long;
+        self.ends_item.next = (self.fails.val() & self.after.val().is_too_long) | self.ends_in_place.val();
         self.outcome.next.context = self.visit.val().context;
-        self.outcome.next.sleeps = self.fails.val();
+        self.outcome.next.sleeps = self.ends.val();
         self.outcome.next.will_retry = self.fails.val() & (!self.ends_item.val());
-        self.outcome.next.hands_over = self.fails.val();
+        self.outcome.next.hands_over = self.ends.val();
         self.outcome.next.asks_for_priority = self.aborts.val();
-        self.outcome.next.waits = self.revisits.val();
+        self.outcome.next.waits = self.waits.val();
         self.outcome.next.returns_priority = self.ends_item.val();
         self.outcome.next.overflows = false;
         self.outcome.next.duplicate = self.ends_item.val();

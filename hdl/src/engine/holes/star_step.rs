@@ -2,8 +2,10 @@
 //!
 //! 1. A record of the star asks for the record outside, and for the next record of its chain, unless that is the one
 //!    which the other chain visits or has visited last. A ring that would be longer than the list drains.
-//! 2. A visit that meets a foreign lock makes the attempt drain (M4), or is made again (M5).
-//! 3. The star is over when its last visit completes.
+//! 2. A visit that meets a foreign lock makes the attempt drain (M4), or is made again (M5). So is a record of the star
+//!    with a point that was torn (M14).
+//! 3. The star is over when its last visit completes. If the vertex moves, and may keep all its edges, the last edge is
+//!    tested (M12); else the hole opens. A vertex on the hull keeps none.
 //!
 //! Latency: none, the block is combinational.
 
@@ -21,24 +23,35 @@ pub struct StarStep {
     pub is_outside: Signal<In, Bit>,
     pub is_foreign: Signal<In, Bit>,
     pub is_awaited: Signal<In, Bit>,
+    /// The visit is one of a move; the vertex has its new place already; its edges stay as far as the visit can tell.
+    pub moves: Signal<In, Bit>,
+    pub stays: Signal<In, Bit>,
+    pub keeps: Signal<In, Bit>,
     /// The number of entries that a ring can have, a constant.
     pub ring_capacity: Signal<In, RingCount>,
     pub held: Signal<In, Star>,
     pub after: Signal<Out, Star>,
     /// The visit is made again; the record outside is asked for, and the next record of the chain (`goes_on`).
     pub revisits: Signal<Out, Bit>,
+    /// The visit is made again because it waits for a lock.
+    pub waits: Signal<Out, Bit>,
     pub looks_outside: Signal<Out, Bit>,
     pub goes_on: Signal<Out, Bit>,
     pub onward: Signal<Out, TriangleId>,
     pub outside: Signal<Out, TriangleId>,
     pub next_place: Signal<Out, RingEntry>,
     /// The visit brings an entry of the ring; it aborts the attempt; or the star is over, and the attempt has failed
-    /// (`fails`) or the hole opens.
+    /// (`fails`), or the last edge is tested (`closes`), or the hole opens.
     pub settles: Signal<Out, Bit>,
     pub aborts: Signal<Out, Bit>,
     pub fails: Signal<Out, Bit>,
+    pub closes: Signal<Out, Bit>,
     pub opens: Signal<Out, Bit>,
+    /// A record of the star counts; the visit may close the star.
+    pub goes_round: Signal<Out, Bit>,
+    pub may_close: Signal<Out, Bit>,
     is_live: Signal<Local, Bit>,
+    is_torn: Signal<Local, Bit>,
     counts: Signal<Local, Bit>,
     is_right: Signal<Local, Bit>,
     place: Signal<Local, RingEntry>,
@@ -58,6 +71,8 @@ pub struct StarStep {
     is_last: Signal<Local, Bit>,
     entry: Signal<Local, RingEntry>,
     fails_now: Signal<Local, Bit>,
+    keeps_all: Signal<Local, Bit>,
+    is_kept: Signal<Local, Bit>,
     one: Signal<Local, RingCount>,
     none: Signal<Local, RingCount>,
     one_place: Signal<Local, RingEntry>,
@@ -86,9 +101,11 @@ impl Logic for StarStep {
 
         // M4, M5: a foreign lock makes the attempt drain, unless its context has the priority.
         self.is_live.next = self.is_star.val() & (!self.held.val().drains);
-        self.again.next = self.is_live.val() & self.is_awaited.val();
+        self.is_torn.next = self.turned.val().again & (!self.is_foreign.val()) & (!self.is_outside.val());
+        self.waits.next = self.is_live.val() & self.is_awaited.val();
+        self.again.next = self.is_live.val() & (self.is_awaited.val() | self.is_torn.val());
         self.refused.next = self.is_live.val() & self.is_foreign.val() & (!self.is_awaited.val());
-        self.counts.next = self.is_live.val() & (!self.is_foreign.val());
+        self.counts.next = self.is_live.val() & (!self.is_foreign.val()) & (!self.is_torn.val());
         self.revisits.next = self.again.val();
         self.aborts.next = self.refused.val();
         self.settles.next = self.counts.val() & self.is_outside.val();
@@ -124,11 +141,23 @@ impl Logic for StarStep {
         self.is_last.next = self.is_star.val() & (self.left_after.val() == self.none.val());
         self.fails_now.next = self.held.val().drains | self.refused.val() | self.overflows.val();
         self.fails.next = self.is_last.val() & self.fails_now.val();
-        self.opens.next = self.is_last.val() & (!self.fails_now.val());
+        self.keeps_all.next = self.held.val().keeps & self.keeps.val();
+        self.is_kept.next =
+            self.moves.val() & (self.stays.val() | (self.keeps_all.val() & (!self.held.val().has_infinite)));
+        if self.turned.val().infinite2 & (!self.stays.val()) {
+            self.is_kept.next = false;
+        }
+        self.closes.next = self.is_last.val() & (!self.fails_now.val()) & self.is_kept.val();
+        self.opens.next = self.is_last.val() & (!self.fails_now.val()) & (!self.is_kept.val());
+        self.goes_round.next = self.counts.val() & (!self.is_outside.val());
+        self.may_close.next = self.moves.val() & self.is_outside.val() & (self.outstanding.val() == self.one.val());
 
         self.after.next = self.held.val();
         self.after.next.outstanding = self.left_after.val();
         self.after.next.drains = self.fails_now.val();
+        if self.counts.val() {
+            self.after.next.keeps = self.keeps_all.val();
+        }
         self.after.next.is_too_long = self.held.val().is_too_long | self.overflows.val();
         if self.turned.val().took {
             self.after.next.logged = self.logged.val() + self.one.val();

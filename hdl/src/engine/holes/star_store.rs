@@ -21,8 +21,10 @@ pub struct StarStore {
     pub held: Signal<Out, Star>,
     pub changes: Signal<In, Bit>,
     pub after: Signal<In, Star>,
-    /// The visit is a root that opens a star, and the first records of the chains to the left and to the right.
+    /// The visit is a root that opens a star, the first records of the chains to the left and to the right, and whether
+    /// the root's triangle turns left at the new place of a vertex that moves.
     pub opens: Signal<In, Bit>,
+    pub keeps: Signal<In, Bit>,
     pub left: Signal<In, TriangleId>,
     pub right: Signal<In, TriangleId>,
     stars: LutMemory<CONTEXT_BITS, STAR_BITS>,
@@ -57,6 +59,7 @@ impl Logic for StarStore {
             self.new_state.next.has_triangle = false;
             self.new_state.next.drains = false;
             self.new_state.next.is_too_long = false;
+            self.new_state.next.keeps = self.keeps.val();
             self.new_state.next.outstanding = 3.into();
             self.new_state.next.count = 3.into();
             self.new_state.next.logged = 1.into();

@@ -3,12 +3,16 @@
 //! 1. The root asks for the next record to the left, the record outside, and the next record to the right, with the
 //!    places 1, 0 and -1. A record of the star asks for the next one of its chain, with its own place as `after`, and
 //!    for the record outside, with the mark 32.
-//! 2. By default the bundle is the same visit again.
+//! 2. The test of the last edge of a star that moves has the ends of the two ring edges that meet there: the last place,
+//!    the first one and the place after that. It has the mark 64 in `cavity_record`.
+//! 3. By default the bundle is the same visit again.
 //!
 //! Latency: none, the block is combinational.
 
-use crate::engine::types::{Bundle, Hole, RingEntry, TriangleId, Turned, Visit};
+use super::next_place::NextPlace;
+use crate::engine::types::{Bundle, Hole, RingEntry, Star, TriangleId, Turned, Visit};
 use crate::prelude::*;
+use incircle_protocol::Config;
 
 #[derive(LogicBlock, Default)]
 pub struct StarVisits {
@@ -28,6 +32,9 @@ pub struct StarVisits {
     /// A test of this hole follows.
     pub tests: Signal<In, Bit>,
     pub hole: Signal<In, Hole>,
+    /// The last edge of this star is tested.
+    pub closes: Signal<In, Bit>,
+    pub star: Signal<In, Star>,
     pub bundle: Signal<Out, Bundle>,
     /// The first records of the chains to the left and to the right.
     pub left: Signal<Out, TriangleId>,
@@ -36,6 +43,14 @@ pub struct StarVisits {
     first_right: Signal<Local, TriangleId>,
     first_outside: Signal<Local, TriangleId>,
     mark: Signal<Local, RingEntry>,
+    second: NextPlace,
+}
+
+impl StarVisits {
+    /// The block of a configuration, which must be a valid one.
+    pub fn new(config: Config) -> Self {
+        Self { second: NextPlace::new(config), ..Self::default() }
+    }
 }
 
 impl Logic for StarVisits {
@@ -95,6 +110,17 @@ impl Logic for StarVisits {
             self.bundle.next.after = self.hole.val().j;
             self.bundle.next.cavity_entry = self.hole.val().best;
             self.bundle.next.cavity_record = bit_cast::<15, 6>(self.hole.val().challenger);
+        }
+        self.second.place.next = self.star.val().first;
+        self.second.first.next = self.star.val().first;
+        self.second.last.next = self.star.val().last;
+        if self.closes.val() {
+            self.bundle.next.locks = false;
+            self.bundle.next.entry = self.star.val().first;
+            self.bundle.next.after = self.star.val().last;
+            self.bundle.next.cavity_entry = self.second.after.val();
+            self.bundle.next.cavity_record = 64.into();
+            self.bundle.next.record = 0.into();
         }
     }
 }

@@ -84,6 +84,12 @@ crate::packed! {
         pub fill_is_flat: bool,
         pub fill_context: ContextId,
         pub fill_vertex: VertexId,
+        /// The visit that completes is one of a deletion, or of a move whose vertex is in the mesh (`finds`). It ends a
+        /// move in place; or the last write of a deletion puts a vertex out of the mesh that goes back into it.
+        pub finds: bool,
+        pub moves_in_place: bool,
+        pub puts_out: bool,
+        pub put_out_context: ContextId,
     }
 
     /// A context starts the solo insertion of its point.

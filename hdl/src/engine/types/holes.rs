@@ -1,6 +1,7 @@
-//! The star of a vertex that is deleted, and the hole that it leaves.
+//! The star of a vertex that is deleted or moved, and the hole that it leaves.
 
 use super::widths::{ContextId, LockCount, RingCount, RingEntry, Slot, TriangleId, VertexId};
+use crate::predicate::Point;
 use rust_hdl_core::prelude::*;
 
 /// Width of [`Star`] in bits.
@@ -11,6 +12,8 @@ pub const HOLE_BITS: usize = Hole::BITS;
 pub const HOLE_OF_BITS: usize = HoleOf::BITS;
 /// Width of [`FillJob`] in bits.
 pub const FILL_JOB_BITS: usize = FillJob::BITS;
+/// Width of [`MovedItem`] in bits.
+pub const MOVED_ITEM_BITS: usize = MovedItem::BITS;
 /// Width of [`RingWord`] in bits.
 pub const RING_WORD_BITS: usize = RingWord::BITS;
 
@@ -31,6 +34,8 @@ crate::packed! {
         /// The attempt waits until its visits in flight complete: it has aborted, or the ring is too long for the list.
         pub drains: bool,
         pub is_too_long: bool,
+        /// In a move: all edges stay that have been looked at.
+        pub keeps: bool,
         /// Number of visits in flight, of records of the star that were asked for, and of locks.
         pub outstanding: RingCount,
         pub count: RingCount,
@@ -119,6 +124,32 @@ crate::packed! {
         pub is_flat: bool,
         pub vertex: VertexId,
         pub locks: LockCount,
+    }
+
+    /// The item of a move that begins, while a run of them is under way (`runs`): its vertex goes back into the mesh; or
+    /// has its new place already; and that place.
+    pub struct Moving {
+        pub runs: bool,
+        pub returns: bool,
+        pub stays: bool,
+        pub target: Point,
+    }
+
+    /// The item of a move at work: its vertex, its new place, and the flags of [`Moving`].
+    pub struct MovedItem {
+        pub vertex: VertexId,
+        pub target: Point,
+        pub returns: bool,
+        pub stays: bool,
+    }
+
+    /// The vertices opposite the last records of the chains of a star, each if it is new.
+    pub struct Carried {
+        pub context: ContextId,
+        pub sets_left: bool,
+        pub sets_right: bool,
+        pub left: VertexId,
+        pub right: VertexId,
     }
 
     /// Two ids that are free, and the vertex that keeps them.

@@ -20,6 +20,7 @@
 //! ([`VerdictLogic`]).
 
 mod issue;
+mod moved_star;
 mod near_corner;
 mod near_logic;
 mod push_port;
@@ -30,6 +31,7 @@ mod visit_pipeline;
 mod visit_reader;
 
 pub use issue::Issue;
+pub use moved_star::MovedStar;
 pub use near_corner::NearCorner;
 pub use near_logic::NearLogic;
 pub use push_port::PushPort;

@@ -1,6 +1,7 @@
 //! Puts the four vertices of a test in the place of a record: three of them as corners, and the fourth as the point.
 //!
-//! 1. A test turns its record and does not lock it, in a run of deletions.
+//! 1. A test turns its record and does not lock it, in a run of deletions or moves. The test of the last edge of a star
+//!    that moves has three vertices, and a point of its own ([`MovedStar`](super::MovedStar)).
 //!
 //! Latency: none from the record to the corners; 2 clocks to `is_point`.
 
@@ -11,7 +12,7 @@ use crate::prelude::*;
 #[derive(LogicBlock, Default)]
 pub struct TestCorners {
     pub clock: Signal<In, Clock>,
-    /// A run of deletions is under way.
+    /// A run of deletions or moves is under way, and no solo insertion.
     pub deletes: Signal<In, Bit>,
     /// The visit whose record comes in this clock, if there is one (`valid`), and the vertices of its test.
     pub valid: Signal<In, Bit>,

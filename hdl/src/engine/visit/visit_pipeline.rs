@@ -5,7 +5,8 @@
 //!    `turned.again` (L7). Vertices, neighbours and slot of `turned` and the whole `verdict` are arbitrary then, but
 //!    `took` and `foreign` are valid.
 //! 3. A visit is judged by the point that its context has 4 clocks after the issue. The user changes that point only
-//!    while none of the context's visits is in flight.
+//!    while none of the context's visits is in flight. The star of a vertex that moves has another point, and other
+//!    corners ([`MovedStar`]).
 //! 4. A read-out never meets a write of its record at one edge, because the user reads only while no
 //!    insertion is at work.
 //!
@@ -27,13 +28,14 @@
 //! ```
 
 use super::issue::Issue;
+use super::moved_star::MovedStar;
 use super::test_corners::TestCorners;
 use super::visit_judge::VisitJudge;
 use super::visit_reader::VisitReader;
 use crate::engine::types::{
-    context_bits, ring_bits, Arrival, Completion, ContextId, LockClear, NearVerdict, Position, Push, RecordRead,
-    TestVertices, TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS, TURNED_BITS,
-    VISIT_BITS,
+    context_bits, ring_bits, Arrival, Carried, Completion, ContextId, LockClear, Moving, NearVerdict, Position, Push,
+    RecordRead, Start, TestVertices, TriangleId, Turned, Upcoming, VertexId, Visit, Write, WriteEnables, CONTEXT_BITS,
+    TURNED_BITS, VISIT_BITS,
 };
 use crate::leaf::{DelayLine, LutMemory, Unpack};
 use crate::mesh::{ReadRecord, TriangleStore, VertexStore};
@@ -63,7 +65,7 @@ pub struct VisitPipeline {
     /// the search for the nearest vertex: in a core that answers questions.
     pub sides: Vec<Signal<Out, Sides>>,
     pub nearest: Vec<Signal<Out, NearVerdict>>,
-    /// In such a core: a run of deletions is under way; the visit that reads its record, and two clocks later the
+    /// In such a core: a run of deletions or moves is under way; the visit that reads its record, and two clocks later the
     /// vertices of its test if it is one. The vertex memory is asked for a point of a test (`fetches`). Whether the
     /// three corners of the visit that completes turn left.
     pub deletes: Vec<Signal<In, Bit>>,
@@ -71,6 +73,10 @@ pub struct VisitPipeline {
     pub test_vertices: Vec<Signal<In, TestVertices>>,
     pub fetches: Vec<Signal<Out, Bit>>,
     pub turns_left: Vec<Signal<Out, Bit>>,
+    /// The item of a move that begins with a context that starts, and the carried vertices of [`MovedStar`].
+    pub moving: Vec<Signal<In, Moving>>,
+    pub start: Vec<Signal<In, Start>>,
+    pub carried: Vec<Signal<In, Carried>>,
     /// A record that the read-out wants, only while no visit is in flight; and the record that has been read.
     pub read: Signal<In, RecordRead>,
     pub read_out: Signal<Out, ReadRecord>,
@@ -116,6 +122,7 @@ pub struct VisitPipeline {
     kept_near: Vec<DFF<NearVerdict>>,
     kept_turn: Vec<DFF<Bit>>,
     test: Vec<TestCorners>,
+    moved: Vec<MovedStar>,
     shifted: Signal<Local, Bits<15>>,
     one: Signal<Local, Bits<15>>,
 }
@@ -159,6 +166,10 @@ impl VisitPipeline {
             kept_near: vec![DFF::default()],
             kept_turn: vec![DFF::default()],
             test: vec![TestCorners::default()],
+            moved: vec![MovedStar::new(config)],
+            moving: vec![Signal::default()],
+            start: vec![Signal::default()],
+            carried: vec![Signal::default()],
             deletes: vec![Signal::default()],
             issued: vec![Signal::default()],
             test_vertices: vec![Signal::default()],
@@ -268,12 +279,36 @@ impl Logic for VisitPipeline {
             self.vertices.id0.next = self.test[i].id0.val();
             self.vertices.id1.next = self.test[i].id1.val();
             self.vertices.id2.next = self.test[i].id2.val();
-            self.fetches[i].next = self.test[i].fetches.val();
+            self.fetches[i].next = self.test[i].fetches.val() | self.moved[i].fetches.val();
             if self.test[i].fetches.val() {
                 self.vertices.fetch_id.next = self.test[i].fetch_id.val();
             }
             if self.test[i].is_point.val() {
                 self.point.d.next = self.vertices.fetched.val();
+            }
+
+            // The star of a vertex that moves is judged by the new place.
+            self.moved[i].clock.next = self.clock.val();
+            self.moved[i].moving.next = self.moving[i].val();
+            self.moved[i].start.next = self.start[i].val();
+            self.moved[i].carried.next = self.carried[i].val();
+            self.moved[i].valid.next = self.valid.q.val().get_bit(1);
+            self.moved[i].visit.next = self.reader.visit_at_record.val();
+            self.moved[i].record.next = self.triangles.record.val();
+            self.moved[i].arrival.next = self.arrival.val();
+            self.moved[i].test_fetches.next = self.test[i].fetches.val();
+            self.moved[i].corners.next = self.vertices.corners.val();
+            self.moved[i].fetched.next = self.vertices.fetched.val();
+            self.reader.stored_corners.next = self.moved[i].corners_after.val();
+            self.moved[i].turned.next = self.reader.turned.val();
+            self.turned_bits.next = self.moved[i].turned_after.val().into();
+            // Read after it is driven: in Verilog, an assignment above would take the bits before the mark.
+            self.turned_delay.data_in.next = self.turned_bits.val();
+            if self.moved[i].fetches.val() {
+                self.vertices.fetch_id.next = self.moved[i].fetch_id.val();
+            }
+            if self.moved[i].is_moved.val() {
+                self.point.d.next = self.moved[i].target.val();
             }
         }
 

@@ -9,8 +9,9 @@ use crate::bench_report::{Bench, Measured};
 use crate::commands::bench_batch;
 use crate::commands::bench_sets::{points_of, sets_of, timed, DEFAULT_BACKEND, DEFAULT_MHZ, SOFTWARE_RUNS};
 use crate::commands::generate::check_count;
-use crate::failure::{failure_of, Failure};
+use crate::failure::{counted, failure_of, Failure};
 use crate::fit::Fit;
+use crate::memory::Memory;
 use crate::output;
 use crate::progress::Meter;
 
@@ -25,6 +26,9 @@ pub fn run(arguments: &BenchArguments) -> Result<(), Failure> {
     }
     let sets = sets_of(arguments);
     let choice = Choice::of(&arguments.backend, arguments.coord_bits, DEFAULT_BACKEND)?;
+    choice.check_bits()?;
+    let set = format!("a set of {}", counted(arguments.n as usize, "point"));
+    Memory::free().check_sets(&set, Memory::of_points(arguments.n.into()), "choose a smaller -n")?;
     let runs = if choice.is_software() { SOFTWARE_RUNS } else { 1 };
     let room = room_for(&choice, &sets, arguments)?;
     let mut backend = backend::open_with_room(&choice, Some(room), None, arguments.job.timeout)?;

@@ -11,6 +11,7 @@ use crate::arguments::BenchArguments;
 use crate::backend::{self, Choice};
 use crate::commands::bench_sets::{points_of, sets_of, timed, DEFAULT_BACKEND, DEFAULT_MHZ, SOFTWARE_RUNS};
 use crate::failure::{counted, failure_of, Failure};
+use crate::memory::Memory;
 use crate::output;
 use crate::progress::Meter;
 
@@ -61,9 +62,14 @@ struct Table<'a> {
     engines: u32,
 }
 
-/// Most points of all jobs together. Points and meshes are in memory at once and take 40 bytes a point and some hundred
-/// a job, so 3 to 10 GB in all.
+/// Most points of all jobs together. Points and meshes are in memory at once: up to [`KEPT_BYTES`] a point and
+/// [`JOB_BYTES`] a job.
 const MOST_POINTS: u64 = 1 << 26;
+/// Bytes that a point of a batch takes, with its share of the mesh.
+const KEPT_BYTES: u64 = 40;
+/// Bytes that a job of a batch takes beside its points: its lists, and its report with the counters. Batches of 30,000
+/// to a million jobs took 1,600 to 2,200; it is more where a list has just doubled its room.
+const JOB_BYTES: u64 = 2_300;
 
 /// Runs a batch of `jobs` jobs of each set. Each row is printed as soon as its batch is done, or one JSON
 /// object at the end.
@@ -76,6 +82,8 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
         )));
     }
     let choice = Choice::of(&arguments.backend, arguments.coord_bits, DEFAULT_BACKEND)?;
+    choice.check_bits()?;
+    check_memory(arguments.n, jobs, Memory::free())?;
     let runs = if choice.is_software() { SOFTWARE_RUNS } else { 1 };
     let mut backend = backend::open_with_room(&choice, Some(room(&choice, arguments)), None, arguments.job.timeout)?;
     backend.check_job(&arguments.job)?;
@@ -105,6 +113,14 @@ pub fn run(arguments: &BenchArguments, jobs: u32) -> Result<(), Failure> {
         output::print(&format!("{}\n", table.to_json(&rows)))?;
     }
     Ok(())
+}
+
+/// Refuses a batch that the memory cannot hold: all jobs, and beside them the work on one.
+fn check_memory(n: u32, jobs: u32, memory: Memory) -> Result<(), Failure> {
+    let (points, jobs) = (u64::from(n), u64::from(jobs));
+    let kept = jobs * (points * KEPT_BYTES + JOB_BYTES);
+    let sets = format!("{} of {} each", counted(jobs as usize, "job"), counted(n as usize, "point"));
+    memory.check_sets(&sets, kept + Memory::of_points(points), "ask for fewer jobs or points")
 }
 
 /// Points that the back end must hold: those of one job. Without `--config` the core is at least the configuration

@@ -179,3 +179,25 @@ fn ways_to_fill_holes_are_compared_by_their_tests() {
     let triangle = rows.iter().find(|row| row[1] == "3").expect("a vertex with three neighbours");
     assert!(triangle.ends_with(&["insertion", "0.0", "+", "0.0", "(0)"].map(str::to_owned)), "{triangle:?}");
 }
+
+/// The command compares all meshes and answers, and fails if any differ.
+#[test]
+fn a_mesh_of_features_stays_on_the_core_from_frame_to_frame() {
+    let scratch = Scratch::new();
+    let run = || scratch.run("tracks -n 300 --frames 3 --places 100 -k 8").ok();
+    let cycles = |run: &Run| -> Vec<Vec<u64>> {
+        let numbers = |row: &String| {
+            let core = row.split('|').skip(1).take(2).flat_map(str::split_whitespace);
+            core.map(|word| word.parse().expect("a number of clocks")).collect()
+        };
+        run.stdout.lines().skip(4).map(str::to_owned).collect::<Vec<_>>().iter().map(numbers).collect()
+    };
+    let rows = cycles(&run());
+    assert_eq!(rows.len(), 4, "a row for each motion");
+    for row in &rows {
+        let &[changes, places, read_out, anew] = &row[..] else { panic!("four counts: {row:?}") };
+        assert!(changes > 0 && places >= 4 * 100 && read_out >= 2 * 290 && anew > read_out, "{row:?}");
+    }
+    assert!(3 * rows[2][0] < rows[0][0], "changes of a tenth of the features cost less: {rows:?}");
+    assert_eq!(rows, cycles(&run()), "cycles are the same in every run");
+}

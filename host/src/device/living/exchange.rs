@@ -44,6 +44,10 @@ impl<'d> LivingDevice<'d> {
         self.backend.name()
     }
 
+    pub(super) fn clocks(&self) -> Option<u64> {
+        self.backend.clocks()
+    }
+
     /// Whether the device takes runs of this kind.
     pub(super) fn takes(&self, kind: RunKind) -> bool {
         self.identity.takes(kind)

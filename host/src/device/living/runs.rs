@@ -198,6 +198,9 @@ impl LivingSession<'_> {
                 Ok(from) => from,
                 Err(error) => return self.make(&mut pending).and(Err(error)),
             };
+            if from == to {
+                continue;
+            }
             let is_shared = self.names.place(from).is_some_and(Place::is_shared);
             let alone = self.vertex_for(RunKind::Move, from).filter(|_| !is_shared);
             let is_plain = self.names.place(to).is_none();

@@ -45,8 +45,8 @@ pub(super) enum Held {
 /// - **Many neighbours.** A device refuses to delete or move a vertex with more neighbours than its list holds, 32 in
 ///   the standard cores and the model. The next question, or a call of [`mesh`](LivingMesh::mesh), then makes the mesh
 ///   on the device anew. That takes O(n), once for all changes since the mesh before.
-/// - **No moves.** The core of the hardware has no command yet that moves a vertex. There every move is made like that
-///   of a vertex with many neighbours.
+/// - **No moves.** On a device without the command that moves a vertex, every move is made like that of a vertex with
+///   many neighbours.
 /// - **Memory.** The device holds as many different places as its capacity. [`Error::MemoryFull`] says that there is no
 ///   room, and leaves the mesh as it was.
 /// - **Faults.** After an error of the link or a wrong answer, the mesh on the device is not known, and all further
@@ -105,6 +105,13 @@ impl<'d> LivingSession<'d> {
         };
         let weighed = located.vertices.into_iter().zip(located.weights).take(count);
         weighed.map(|(vertex, weight)| Ok((self.name(RunKind::Interpolate, vertex)?, weight))).collect()
+    }
+
+    /// Clocks of the device since it was opened; `None` unless the device is a simulated core, whose clocks are
+    /// counted.
+    #[must_use]
+    pub fn clocks(&self) -> Option<u64> {
+        self.device.clocks()
     }
 
     pub(super) fn check_grid(&self, point: Point) -> Result<(), Error> {

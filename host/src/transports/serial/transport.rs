@@ -103,9 +103,7 @@ impl SerialTransport {
         let limit = Limit::of(timeout.saturating_mul(self.slow));
         let result = self.drive(limit.deadline(), 0, ready);
         result.map_err(|source| match source {
-            TransportError::Timeout { .. } => {
-                Error::Timeout { device: self.name(), during: DURING, timeout: limit.timeout() }
-            }
+            TransportError::Timeout { .. } => limit.missed(self.name(), DURING),
             source => Error::Link { device: self.name(), during: DURING, source },
         })
     }

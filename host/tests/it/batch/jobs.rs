@@ -82,7 +82,7 @@ fn errors_name_the_job() {
     let mut device = Device::model(16, 64).expect("possible");
     let error = batch(&mut device, &jobs, &Options::default()).expect_err("outside the grid");
     assert_eq!(error.kind(), ErrorKind::BadInput);
-    assert!(error.to_string().starts_with("job 7 of the batch: point "), "{error}");
+    assert!(error.to_string().starts_with("job 7 of the batch, counted from 0: point "), "{error}");
     let options = Options::default().contexts(5);
     let error = batch(&mut device, &jobs, &options).expect_err("one context");
     assert_eq!(error.kind(), ErrorKind::BadChoice);

@@ -117,12 +117,14 @@ impl Commit {
         memory: &mut Memory,
         solo_ends: bool,
         seeds: bool,
+        holds: bool,
     ) {
         self.write.valid = false;
         self.inner_age = (self.inner_age + 1).min(INNER_LATENCY);
         self.records = self.written[1].unwrap_or(self.records);
         self.written = [None, self.written[0]];
         match self.state {
+            _ if holds => {}
             State::Idle => self.load(head, memory),
             State::Record => {
                 if let Some(step) = was.commit.step(head, memory) {

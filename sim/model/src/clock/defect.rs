@@ -45,4 +45,8 @@ pub enum Defect {
     LeavesTheRingOpen,
     /// M8: a free record gets no mark and no link, and keeps the triangle that it was.
     LeavesFreeRecordsUnmarked,
+    /// M12: a move writes the point alone without a look at the edges.
+    MovesWithoutLook,
+    /// M14: a point that is read or fetched while one is being written counts as valid.
+    ReadsTheTornPoint,
 }

@@ -39,6 +39,8 @@ impl Write {
     /// Takes the request of the block that makes one. While no block does, the data stay.
     pub(super) fn clock(&mut self, was: &Registers) {
         let sources = [was.commit.write, was.filled, was.solo.write, was.seeder.write];
+        let requests = sources.iter().filter(|write| write.valid).count();
+        assert!(requests <= 1, "{requests} writes are requested at one edge");
         match sources.into_iter().find(|write| write.valid) {
             Some(write) => *self = write,
             None => self.valid = false,
@@ -73,6 +75,12 @@ pub(super) struct Memory {
     /// The current point of each context, and the clock in which the context took it.
     pub point_id: Vec<u32>,
     pub position: Vec<Point>,
+    /// The place to which the item of each context moves its vertex; and whether that vertex goes into the mesh, or has
+    /// still to be found.
+    pub target: Vec<Point>,
+    pub inserts: Vec<bool>,
+    /// The vertices opposite the records of each context's star at which its chains stand: to the right and to the left.
+    pub carried: Vec<[u32; 2]>,
     pub since: Vec<u32>,
     /// The ids of two free records for each vertex that has been deleted.
     kept: Vec<Option<[u32; 2]>>,
@@ -94,6 +102,9 @@ impl Memory {
             lock_log: vec![vec![0; 2 * ring]; contexts],
             point_id: vec![0; contexts],
             position: vec![Point::default(); contexts],
+            target: vec![Point::default(); contexts],
+            inserts: vec![false; contexts],
+            carried: vec![[0; 2]; contexts],
             since: vec![0; contexts],
             kept: vec![None; config.points as usize],
         }
@@ -193,8 +204,8 @@ impl Memory {
                 }
             }
         }
-        if let Some((id, position)) = wires.new_vertex {
-            self.vertices[id as usize] = position;
+        if let Some((id, position)) = wires.new_vertex.or(wires.new_point) {
+            self.set_vertex(id, position);
         }
     }
 }

@@ -44,9 +44,11 @@ pub(super) struct Outcome {
     pub revisits: bool,
     pub waits: bool,
     pub duplicate: bool,
+    /// Whether a vertex moves without a change of edges. Then its item ends as that of a duplicate does.
+    pub moves_in_place: bool,
     /// Whether the visit was the look at the first three points.
     pub looks: bool,
-    /// In a run of deletions: the star after this visit; the hole that is tested on; and the hole whose next apex is
+    /// In a run of deletions or moves: the star after this visit; the hole that is tested on; and the hole whose next apex is
     /// known, or that opens.
     pub star: Option<Star>,
     pub tests_on: Option<Hole>,
@@ -62,6 +64,9 @@ pub(super) struct Around<'a> {
     pub config: Config,
     pub infinite: u32,
     pub defect: Option<Defect>,
+    /// Whether the visit is one of a move, and whether the vertex moves to its own place.
+    pub moves: bool,
+    pub stays: bool,
 }
 
 impl Around<'_> {

@@ -4,7 +4,7 @@
 //! Hardware twin: the block `VisitPipeline`.
 
 use super::defect::Defect;
-use super::holes::replaces;
+use super::holes::{keeps_edges, replaces};
 use super::memory::Memory;
 use super::visit::{Bundle, Completion, Visit};
 use super::wires::{Registers, Wires};
@@ -50,10 +50,11 @@ impl Pipeline {
         newer.iter().chain(older).flatten().map(|done| done.visit).chain(self.issued).chain(waiting)
     }
 
-    /// Whether the vertex memory is asked for the point of a test of four vertices in this clock.
+    /// Whether the vertex memory is asked for a fourth point of a visit in this clock: that of a test of four vertices,
+    /// or the one opposite the record before in the star of a vertex that moves.
     pub(super) fn fetches(&self) -> bool {
         let read = self.stages[(self.head + STAGES - RECORD_STAGES) % STAGES];
-        read.is_some_and(|done| done.visit.rotates && !done.visit.locks)
+        read.is_some_and(|done| done.fetches())
     }
 
     /// Whether a visit reads the memories in this clock.
@@ -68,7 +69,11 @@ impl Pipeline {
 
     pub(super) fn clock(&mut self, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) {
         self.expect_no_collision(was);
-        let visited = self.issued.map(|visit| complete(visit, was, wires, memory, defect));
+        let at_vertices = (self.head + STAGES - RECORD_STAGES) % STAGES;
+        if let Some(done) = &mut self.stages[at_vertices] {
+            judge(done, wires, memory, defect);
+        }
+        let visited = self.issued.map(|visit| read(visit, was, wires, memory, defect));
         self.stages[self.head] = visited;
         self.head = (self.head + 1) % STAGES;
         self.reads = [wires.read, self.reads[0], self.reads[1]];
@@ -92,25 +97,58 @@ impl Pipeline {
     }
 }
 
-/// Reads a record, takes its lock if asked to, and evaluates the predicates.
-fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
+/// Reads a record, and takes its lock if asked to. The vertices are read later.
+fn read(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, defect: Option<Defect>) -> Completion {
     // L7: a record that is read while it is being written is torn, and a new record counts only when
     // its commit has ended.
     let is_torn = was.write.valid && was.write.id == visit.record;
     let is_written =
         visit.record < was.commit.records || was.commit.records == 0 || defect == Some(Defect::ReadsTheUnwritten);
     let stored = if is_torn { Record::default() } else { memory.record(visit.record) };
+    let is_out = memory.inserts[visit.context] || was.solo.is_at_work();
+    let finds = wires.deletes || wires.moves && !is_out;
     // M3: the records outside a star are locked, as those outside a cavity are.
-    let is_open = defect == Some(Defect::LeavesTheRingOpen) && wires.deletes && visit.is_outside_star();
+    let is_open = defect == Some(Defect::LeavesTheRingOpen) && finds && visit.is_outside_star();
     let (took, foreign) = match visit.locks && !is_open {
         true => memory.take_lock(visit.record, visit.context, wires.clear, defect),
         false => (false, false),
     };
-    let p = memory.position[visit.context];
     let slot = if visit.rotates { stored.slot_of(visit.cavity_record) } else { 0 };
-    let record = stored.rotated(slot);
+    Completion {
+        visit,
+        stored,
+        record: stored.rotated(slot),
+        slot,
+        took,
+        foreign,
+        again: is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written,
+        finds,
+        moves: finds && wires.moves,
+        names: stored.v.iter().position(|&v| v == memory.point_id[visit.context]),
+        // M8: all three vertices of a free record are infinite.
+        is_free: stored.v == [memory.infinite; 3],
+        ..Completion::default()
+    }
+}
+
+/// Evaluates the predicates of a visit for the vertices of its record.
+fn judge(done: &mut Completion, wires: &Wires, memory: &Memory, defect: Option<Defect>) {
+    let Completion { visit, record, .. } = *done;
+    // M14: the point of a vertex that is read while it is being written is torn, too.
+    let written = wires.new_point.map(|(vertex, _)| vertex).filter(|vertex| done.stored.v.contains(vertex));
+    assert!(
+        written.is_none() || !visit.locks || done.foreign,
+        "{visit:?} has the lock of a record whose point changes"
+    );
+    // Fetches and writes of points share a port.
+    let is_torn = written.is_some() || wires.new_point.is_some() && done.fetches();
+    done.again |= is_torn && defect != Some(Defect::ReadsTheTornPoint);
+    // The star of a vertex that moves is judged for its new place.
+    let is_moved = done.moves && (visit.locks || visit.is_last_edge());
+    let p = if is_moved { memory.target[visit.context] } else { memory.position[visit.context] };
     let infinite = record.v.map(|v| v == memory.infinite);
-    let r = record.v.map(|v| memory.vertex(v));
+    // A memory may give any word for a torn point, also the place that the visit looks for.
+    let r = record.v.map(|v| if Some(v) == written { p } else { memory.vertex(v) });
     let sides = [orient2d(r[1], r[2], p), orient2d(r[2], r[0], p), orient2d(r[0], r[1], p)];
     let first_two = usize::from(sides[1] < sides[0]);
     let lowest = if sides[2] < sides[first_two] { 2 } else { first_two };
@@ -124,27 +162,10 @@ fn complete(visit: Visit, was: &Registers, wires: &Wires, memory: &mut Memory, d
             (conflict, sides[lowest] >= 0, record.n[lowest])
         }
     };
-    let falls_onto_corner = ghost.is_none() && r.contains(&p);
-    let turn = sides[2].signum() as i32;
-    let again = is_torn && defect != Some(Defect::ReadsTheTorn) || !is_written;
-    // M8: all three vertices of a free record are infinite.
-    let is_free = infinite == [true; 3];
-    let names = stored.v.iter().position(|&v| v == memory.point_id[visit.context]);
-    let replaces = wires.deletes && visit.rotates && !visit.locks && replaces(&visit, memory);
-    Completion {
-        visit,
-        record,
-        slot,
-        took,
-        foreign,
-        again,
-        conflict: conflict && !is_free,
-        located,
-        falls_onto_corner,
-        walk_next,
-        turn,
-        names,
-        replaces,
-        is_free,
-    }
+    done.falls_onto_corner = ghost.is_none() && r.contains(&p);
+    done.turn = sides[2].signum() as i32;
+    done.conflict = conflict && !done.is_free;
+    (done.located, done.walk_next) = (located, walk_next);
+    done.replaces = done.finds && visit.is_hole_test() && !visit.is_last_edge() && replaces(&visit, memory);
+    done.keeps = done.moves && keeps_edges(done, p, memory);
 }

@@ -23,6 +23,7 @@ use part_queue::{Part, PartQueue};
 use run_port::RunPort;
 use signals::Item;
 pub(super) use signals::{Events, ItemEnd, Launch, Signals};
+use std::collections::VecDeque;
 use visits::{Bundle, Visit, Visits};
 
 #[derive(Clone, Debug)]
@@ -37,6 +38,8 @@ pub(super) struct Questions {
     /// The record at which the last walk of each context has ended, or the root of its last change.
     hints: Vec<u32>,
     changes: Changes,
+    /// The contexts whose vertices are out of the mesh and go back into it.
+    returns: VecDeque<usize>,
 }
 
 impl Questions {
@@ -51,6 +54,7 @@ impl Questions {
             searches: vec![Search::default(); contexts],
             hints: vec![0; contexts],
             changes: Changes::new(contexts, config.points),
+            returns: VecDeque::new(),
         }
     }
 
@@ -79,6 +83,11 @@ impl Questions {
         self.port.is_active() && self.port.kind() == RunKind::Delete
     }
 
+    /// Whether a run of moves is under way.
+    pub(super) fn moves(&self) -> bool {
+        self.port.is_active() && self.port.kind() == RunKind::Move
+    }
+
     /// Whether an item of a change has begun since the last clear, so that contexts take no points by themselves.
     pub(super) fn has_changed(&self) -> bool {
         self.changes.has_changed
@@ -95,12 +104,16 @@ impl Questions {
 
     /// The item of a change that begins at this edge if the insertion engine lets it.
     pub(super) fn launch(&self) -> Option<Launch> {
-        if self.asks() || !self.parts.has_room() {
+        if self.asks() {
             return None;
         }
-        let (context, item) = self.queues.first(self.offer())?;
-        let stores = self.changes_mesh() && !self.deletes();
-        Some(Launch { context, item, record: self.hints[context], stores })
+        if let Some(&context) = self.returns.front() {
+            let item = Item { place: self.items[context].target, ..self.items[context] };
+            return Some(Launch { context, item, record: self.hints[context], stores: true, returns: true });
+        }
+        let (context, item) = self.queues.first(self.offer()).filter(|_| self.parts.has_room())?;
+        let stores = self.changes_mesh() && !self.deletes() && !self.moves();
+        Some(Launch { context, item, record: self.hints[context], stores, returns: false })
     }
 
     /// Whether a run of questions is under way.
@@ -133,7 +146,7 @@ impl Questions {
             true => (self.parts.has_room() && asked.is_empty(), found.map(|_| context)),
             false => {
                 let end = events.ends.or(events.fill_ends).or(events.solo_ends).filter(|_| self.changes.has_changed);
-                (events.launch.is_some(), end.map(|end| end.context))
+                (events.launch.is_some_and(|launch| !launch.returns), end.map(|end| end.context))
             }
         };
         let offer = self.offer();
@@ -142,13 +155,18 @@ impl Questions {
             is_active: self.port.is_active(),
             is_change: self.port.is_change(),
             deletes: self.deletes(),
+            moves: self.moves(),
             dealt: self.port.dealt(),
             vertex: self.port.vertex(),
             accepted: done.taken,
-            has_room: self.parts.has_room() && done.launched.is_none(),
+            has_room: self.parts.has_room() && events.launch.is_none() && done.launched.is_none(),
             contexts: signals.contexts,
             clears: signals.clears,
         };
+        if events.launch.is_some_and(|launch| launch.returns) {
+            self.returns.pop_front();
+        }
+        self.returns.extend(events.taken_out);
         if let Some((context, record)) = events.root.filter(|_| self.changes.has_changed) {
             self.hints[context] = record;
         }

@@ -31,8 +31,7 @@ impl ClockModel {
         self
     }
 
-    /// The same core with the runs that the hardware has so far, which its identity then offers: `Locate`,
-    /// `Interpolate`, `Nearest`, `InsertAs` and `Delete`.
+    /// The same core with runs as the hardware does them, clock by clock. Its identity then offers them.
     ///
     /// # Panics
     /// The boundary list is longer than [`MAX_DELETE_RING`]: the hardware refuses such a core.
@@ -63,9 +62,12 @@ impl ClockModel {
         let back = u32::from(comes_back.is_some()) + u32::from(solo.is_some());
         now.deleted += u32::from(wires.erased.is_some());
         now.kept = now.kept + u32::from(wires.erased.is_some()) - back;
+        if let Some((context, star)) = wires.outcome.and_then(|outcome| Some((outcome.context, outcome.star?))) {
+            self.memory.carried[context] = star.carried;
+        }
         if let Some(holes) = &mut self.holes {
             holes.clock(
-                wires.outcome.as_ref().filter(|_| wires.deletes),
+                wires.outcome.as_ref().filter(|_| wires.finds),
                 wires.fill_push.is_some(),
                 wires.fill_end.is_some(),
                 &mut self.memory,
@@ -139,13 +141,12 @@ impl ClockModel {
     pub(super) fn clock_questions(&mut self, signals: &QuestionSignals, wires: &Wires) -> Option<u32> {
         let events = self.change_events(wires);
         let raised = self.questions.as_mut()?.clock(signals, &events, &self.memory);
-        if let Some(Launch { context, item, stores, .. }) = wires.launch {
+        if let Some(Launch { context, item, returns, .. }) = wires.launch {
             self.memory.point_id[context] = item.vertex;
             self.memory.position[context] = item.place;
+            self.memory.target[context] = item.target;
+            self.memory.inserts[context] = returns;
             self.memory.since[context] = self.registers.counters.now;
-            if stores {
-                self.memory.set_vertex(item.vertex, item.place);
-            }
         }
         raised
     }
@@ -163,21 +164,24 @@ impl ClockModel {
         let end = |context: usize, duplicate: Option<Completion>| ItemEnd {
             context,
             vertex: self.memory.point_id[context],
-            refused: None,
+            early: None,
             duplicate: duplicate.map(|done| {
                 let place = self.memory.position[context];
                 let is_met = |&v: &u32| v != wires.infinite && self.memory.vertex(v) == place;
                 done.record.v.into_iter().find(is_met).unwrap_or(0)
             }),
         };
-        let deletes = wires.deletes;
         let ends = wires.outcome.filter(|outcome| outcome.commit.is_some() || outcome.duplicate).map(|outcome| {
-            let end = end(outcome.context, wires.done.filter(|_| outcome.duplicate && !deletes));
-            ItemEnd { refused: Some(Outcome::ManyNeighbors).filter(|_| deletes), ..end }
+            let finds = wires.finds;
+            let end = end(outcome.context, wires.done.filter(|_| outcome.duplicate && !finds));
+            let early = if outcome.moves_in_place { Outcome::Done } else { Outcome::ManyNeighbors };
+            ItemEnd { early: Some(early).filter(|_| finds), ..end }
         });
+        // The item of a move goes on when its hole is full.
         let fill_ends = wires
             .fill_end
-            .map(|fill| ItemEnd { refused: Some(Outcome::Flat).filter(|_| fill.is_flat), ..end(fill.context, None) });
+            .filter(|fill| fill.is_flat || !wires.moves)
+            .map(|fill| ItemEnd { early: Some(Outcome::Flat).filter(|_| fill.is_flat), ..end(fill.context, None) });
         let root = wires.done.filter(|done| wires.outcome.is_some() && done.visit.is_root());
         let solo_ends = wires.solo_ends.then(|| {
             let duplicate = if wires.solo_inserts { None } else { was.solo.last_visit() };
@@ -188,10 +192,11 @@ impl ClockModel {
             fill_ends,
             solo_ends,
             root: root.map(|done| (done.visit.context, done.visit.record)),
-            committed: wires.committed.or(wires.erased).map(|job| (job.context, job.vertex)),
+            committed: wires.committed.or(wires.erased.filter(|_| !wires.moves)).map(|job| (job.context, job.vertex)),
+            taken_out: wires.erased.filter(|_| wires.moves).map(|job| job.context),
             taken: wires.start.and_then(|start| start.id),
             launch: wires.launch,
-            fetches: self.pipeline.fetches() && deletes,
+            fetches: self.pipeline.fetches() || wires.moves && wires.new_point.is_some() || was.late_point.is_some(),
             all_rest: was.contexts.rest,
             arrival: was.command.came.then(|| (was.command.came_id, self.memory.vertex(was.command.came_id))),
             arrived: was.command.arrived,

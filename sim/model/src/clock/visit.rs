@@ -5,6 +5,9 @@ use crate::mesh::Record;
 /// The mark, in `after`, of the visit of a record outside a star.
 pub(super) const OUTSIDE: usize = 32;
 
+/// The mark, in `cavity_record`, of the test of the edge at which the chains round a star have met.
+pub(super) const LAST_EDGE: u32 = 64;
+
 /// One visit of a record.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Visit {
@@ -23,9 +26,24 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    /// Whether this is the visit of a record outside a star, in a run of deletions.
+    /// Whether this is the visit of a record outside a star, in a run of deletions or moves.
     pub(super) fn is_outside_star(&self) -> bool {
         self.locks && self.rotates && (self.entry == 0 || self.after == OUTSIDE)
+    }
+
+    /// Whether this is the visit of a record of a star, in a run of deletions or moves.
+    pub(super) fn goes_round_star(&self) -> bool {
+        self.locks && self.rotates && !self.is_outside_star()
+    }
+
+    /// Whether this is a test of four vertices, or of three and a place, in a run of deletions or moves.
+    pub(super) fn is_hole_test(&self) -> bool {
+        self.rotates && !self.locks
+    }
+
+    /// Whether this is the test of the edge at which the chains round a star have met.
+    pub(super) fn is_last_edge(&self) -> bool {
+        self.is_hole_test() && self.cavity_record == LAST_EDGE
     }
 
     /// Whether this is a root visit, which takes a lock and turns no record.
@@ -119,9 +137,11 @@ impl Bundle {
 }
 
 /// A completed visit, with what it found out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Completion {
     pub visit: Visit,
+    /// The record as stored.
+    pub stored: Record,
     /// The record, rotated if the visit asked for it.
     pub record: Record,
     /// The slot by which the record was rotated.
@@ -142,20 +162,34 @@ pub(super) struct Completion {
     pub walk_next: u32,
     /// The sign of `orient2d(r[0], r[1], p)`.
     pub turn: i32,
-    /// In a run of deletions: the slot of the context's vertex, if the record names it; and for a test of four vertices
+    /// Whether the visit is one of a deletion, or of a move that has not taken its vertex out; and one of such a move.
+    pub finds: bool,
+    pub moves: bool,
+    /// In a run of deletions or moves: the slot of the context's vertex, if the record names it; and for a test of four vertices
     /// of a ring, whether the last one replaces the best apex.
     pub names: Option<usize>,
     pub replaces: bool,
+    /// In a run of moves: whether the vertex keeps its edges at its new place, as far as this visit can tell.
+    pub keeps: bool,
     /// Whether the record is free, so that its links lead on.
     pub is_free: bool,
 }
 
 impl Completion {
+    /// Whether the visit has a fourth point from the vertex memory: that of a test of four vertices, or the one opposite
+    /// the record before in the star of a vertex that moves.
+    pub(super) fn fetches(&self) -> bool {
+        match self.visit.locks {
+            true => self.moves && self.visit.goes_round_star(),
+            false => self.finds && self.visit.is_hole_test(),
+        }
+    }
+
     /// Whether the completion may ask for other visits, as all do but tests that find their edge final and visits
-    /// outside a star.
-    pub(super) fn may_ask(&self, deletes: bool) -> bool {
-        match deletes {
-            true => !self.visit.is_outside_star() || self.foreign,
+    /// outside a star. The last visit of a star that moves may ask for one more test (`is_last`).
+    pub(super) fn may_ask(&self, finds: bool, is_last: bool) -> bool {
+        match finds {
+            true => !self.visit.is_outside_star() || self.foreign || is_last,
             false => !self.visit.rotates || self.conflict || self.foreign,
         }
     }

@@ -11,6 +11,7 @@ use super::commit_job::CommitJob;
 use super::contexts::Contexts;
 use super::counters::Counters;
 use super::holes::{FillEnd, Holes};
+use super::late_point::LatePoint;
 use super::memory::Write;
 use super::outcome::{Around, Outcome};
 use super::ports::Inputs;
@@ -50,6 +51,8 @@ pub(super) struct Registers {
     pub write: Write,
     /// The write that the filling of a hole requests.
     pub filled: Write,
+    /// The point of a move in place that is not written yet.
+    pub late_point: Option<LatePoint>,
     /// Number of vertices that have been deleted since the last clear, and of those whose ids are kept.
     pub deleted: u32,
     pub kept: u32,
@@ -94,6 +97,10 @@ pub(super) struct Wires {
     pub is_quiet: bool,
     /// The point that is accepted at this edge.
     pub new_vertex: Option<(u32, Point)>,
+    /// The move in place that ends, whose point is to be written.
+    pub moved: Option<LatePoint>,
+    /// The vertex whose point is stored with its item, or as that of a move in place.
+    pub new_point: Option<(u32, Point)>,
     /// The walk that a context starts.
     pub start: Option<Start>,
     /// The item of a change that begins, whose context starts to walk.
@@ -123,12 +130,17 @@ pub(super) struct Wires {
     /// Whether the solo insertion ends, and whether it ends with its point in the mesh and not as a duplicate.
     pub solo_ends: bool,
     pub solo_inserts: bool,
-    /// Whether a run of deletions is under way; the test that the filling of a hole asks for; the item that ends with a
+    /// Whether the visit that completes is one of a deletion, or of a move that has not taken its vertex out; whether a
+    /// run of deletions or of moves is under way; the test that the filling of a hole asks for; the item that ends with a
     /// hole that is full or flat; and the deletion whose last record is written.
+    pub finds: bool,
     pub deletes: bool,
+    pub moves: bool,
     pub fill_push: Option<Bundle>,
     pub fill_end: Option<FillEnd>,
     pub erased: Option<CommitJob>,
+    /// Whether a commit waits, because the filling of a hole requests a write.
+    pub holds: bool,
 }
 
 impl ClockModel {
@@ -141,6 +153,7 @@ impl ClockModel {
         let word = (inputs.command_valid && ready).then_some(inputs.command_data);
         let done = self.pipeline.completion();
         let outcome = done.filter(|_| !was.solo.is_at_work()).map(|done| self.outcome(&done));
+        let finds = done.is_some_and(|done| self.finds(done.visit.context));
         let solo_push = was.solo.push_request(was);
         let wanted = was.starter.wants(was);
         // The queue takes one bundle in each clock, and the vertex memory has one port for points that arrive
@@ -148,17 +161,25 @@ impl ClockModel {
         // every visit but a test that finds its edge final counts as asking. The pointer knows even less, and
         // waits at every completion.
         let lacks_port = wanted.is_some_and(|start| start.id.is_some() && was.command.came);
-        let lacks_queue = outcome.is_some() && done.is_some_and(|done| done.may_ask(self.deletes()));
-        let stored = was.command.state == CommandState::Points && was.command.stores_points(was, config);
+        let lacks_queue =
+            outcome.is_some() && done.is_some_and(|done| done.may_ask(finds, self.is_last_of_star(&done)));
+        let takes_point = was.command.state == CommandState::Points && was.command.stores_points(was, config);
         let head = self.ring.head;
         let rests = was.contexts.rest;
         let record_read = self.pipeline.record_read().map(|id| self.memory.record_words(id));
         let solo_inserts = was.solo.inserts();
         let start = wanted.filter(|_| !lacks_port && !lacks_queue);
-        let launch = self.launch(lacks_queue || start.is_some());
+        let launch =
+            self.launch(lacks_queue || start.is_some() || was.late_point.is_some_and(|late| late.is_last_chance()));
         let holes = self.holes.as_ref();
         let is_free = !lacks_queue && start.is_none() && launch.is_none();
-        let releases = outcome.is_some_and(|outcome| outcome.release.is_some());
+        let ends = |outcome: Outcome| outcome.release.is_some() || outcome.commit.is_some() || outcome.duplicate;
+        let ends_attempt = outcome.is_some_and(ends);
+        let holds = holes.is_some_and(Holes::writes_next);
+        let moved = outcome.filter(|outcome| outcome.moves_in_place).map(|outcome| outcome.context);
+        let moved = moved.map(|context| LatePoint::new(self.memory.point_id[context], self.memory.target[context]));
+        let late = was.late_point.filter(|late| late.is_due(self.pipeline.fetches(), moved.is_some()));
+        let stored = launch.filter(|launch| launch.stores).map(|launch| (launch.item.vertex, launch.item.place));
         Wires {
             word,
             response_ready: inputs.response_ready,
@@ -170,7 +191,9 @@ impl ClockModel {
             read: was.responder.read_request(),
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.finished_points.is_done(was) && rests,
-            new_vertex: word.filter(|_| stored).map(|word| (was.command.arrived, point(word))),
+            moved,
+            new_point: stored.or(late.map(|late| late.arrival())),
+            new_vertex: word.filter(|_| takes_point).map(|word| (was.command.arrived, point(word))),
             start,
             launch,
             has_changed: questions.is_some_and(Questions::has_changed),
@@ -179,24 +202,44 @@ impl ClockModel {
             start_is_held: wanted.is_some() && (lacks_port || outcome.is_some()),
             seeds: was.seeder.seeds(),
             head,
-            head_is_taken: was.commit.takes(head, &self.memory),
-            committed: was.commit.ends(),
+            head_is_taken: was.commit.takes(head, &self.memory) && !holds,
+            committed: was.commit.ends().filter(|_| !holds),
             clear: self.release.clear(),
             released: self.release.released(),
             solo_push,
             solo_starts: was.starter.solo().filter(|_| rests && !was.solo.is_at_work()),
             solo_ends: solo_inserts || was.solo.finds_duplicate(),
             solo_inserts,
+            finds,
             deletes: self.deletes(),
+            moves: self.moves(),
             fill_push: holes.and_then(Holes::push_request).filter(|_| is_free),
-            fill_end: holes.and_then(Holes::end_request).filter(|_| !releases),
+            fill_end: holes.and_then(Holes::end_request).filter(|_| !ends_attempt),
             erased: holes.and_then(Holes::erased),
+            holds,
         }
+    }
+
+    /// Whether the visits of a context look for the vertex of its item, go round its star and fill its hole: in a
+    /// deletion, and in a move until its vertex is out of the mesh.
+    pub(super) fn finds(&self, context: usize) -> bool {
+        let is_out = self.memory.inserts[context] || self.registers.solo.is_at_work();
+        self.deletes() || self.moves() && !is_out
     }
 
     /// Whether a run of deletions is under way.
     fn deletes(&self) -> bool {
         self.questions.as_ref().is_some_and(Questions::deletes)
+    }
+
+    /// Whether a run of moves is under way.
+    fn moves(&self) -> bool {
+        self.questions.as_ref().is_some_and(Questions::moves)
+    }
+
+    /// Whether the visit is the last one in flight of a star that moves.
+    fn is_last_of_star(&self, done: &Completion) -> bool {
+        self.moves() && self.tables.attempts[done.visit.context].outstanding == 1
     }
 
     /// The consequences of a completing visit for its context.
@@ -210,8 +253,10 @@ impl ClockModel {
             config: self.config,
             infinite: self.memory.infinite,
             defect: self.defect,
+            moves: self.moves(),
+            stays: self.memory.target[context] == self.memory.position[context],
         };
-        match self.holes.as_ref().filter(|_| self.deletes()) {
+        match self.holes.as_ref().filter(|_| self.finds(context)) {
             Some(holes) => Outcome::of_deletion(done, &around, &holes.stars[context], &holes.holes[context]),
             None => Outcome::of(done, &around),
         }

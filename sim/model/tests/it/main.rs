@@ -14,6 +14,9 @@ mod clock {
     mod deletion_defects;
     mod deletions;
     mod hang;
+    mod move_cycles;
+    mod move_defects;
+    mod moves;
     mod orders;
     mod questions;
     mod read_out;

@@ -19,7 +19,7 @@ struct Exchange {
     capacity: u32,
     ring: u32,
     contexts: u32,
-    /// Whether the device takes all runs, which no core does.
+    /// Whether the device says by one bit that it takes all runs, which no core does.
     runs: bool,
     /// Whether the device takes the runs of a core with runs.
     core_runs: bool,

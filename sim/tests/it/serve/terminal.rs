@@ -73,7 +73,7 @@ fn a_quick_board_with_runs_says_so_in_its_greeting() {
     end(child, "-TERM");
     let refused = program(&link, &["--living", "--config", "full"]).output().unwrap();
     let said = String::from_utf8_lossy(&refused.stderr);
-    assert!(refused.status.code() == Some(1) && said.contains("\"full\" with runs: choose one of small"), "{said}");
+    assert!(refused.status.code() == Some(1) && said.contains("\"full\" with runs: choose small, or"), "{said}");
     fs::remove_dir_all(folder).unwrap();
 }
 

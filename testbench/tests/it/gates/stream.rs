@@ -14,6 +14,12 @@ fn devices_with_a_stream_link_pass_lint_and_synthesis() {
     }
 }
 
+#[test]
+fn a_device_with_runs_passes_lint_and_synthesis() {
+    let passed = gate::pass(&export::stream_top_with_runs(SMALL, 64, false).unwrap(), STREAM_TOP_NAME);
+    assert!(passed.is_ok(), "{}", passed.unwrap_err());
+}
+
 /// Cells of the links by Yosys 0.23. Logic that a constant swept away, or that a change doubles, is more than 5 % off.
 const ECP5: [Cells; 2] = [
     Cells { lut4: 815, carry: 149, distributed_ram: 0, flip_flops: 987, multipliers: 0, block_ram: 4 },

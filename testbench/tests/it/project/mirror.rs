@@ -30,7 +30,6 @@ const ELSEWHERE: [(&str, &str, &str); 68] = [
     ("engine/dispatch/fill_priority", "cores/changes", "the priority in a core with deletions, at every clock"),
     ("engine/dispatch/open_teams", "blocks/engine/dispatch/starter", "a table that only the starter asks"),
     ("engine/dispatch/start_pointer", "blocks/engine/dispatch/starter", "the pointer that only the starter follows"),
-    ("engine/holes/hole_merge", "cores/changes", "wires between holes and attempts"),
     ("engine/holes/hole_ring", "cores/changes", "the memory behind tests and writer"),
     ("engine/holes/hole_step", "cores/changes", "the apexes of triangles in holes, at every clock"),
     ("engine/holes/hole_writer", "cores/changes", "the records that fill holes, at every clock"),

@@ -147,9 +147,10 @@ fn each_defect_names_its_rule_first_and_each_rule_has_one() {
 
 #[test]
 fn each_rule_has_a_test_that_leaves_it_out() {
-    let [tests, of_deletions] = ["defects", "deletion_defects"].map(|name| text(&at(&format!("{TESTS}/{name}.rs"))));
+    let files = ["defects", "deletion_defects", "move_defects"];
+    let [tests, of_deletions, of_moves] = files.map(|name| text(&at(&format!("{TESTS}/{name}.rs"))));
     assert_eq!(ids(&tests), all_rules());
-    let tests = tests + &of_deletions;
+    let tests = tests + &of_deletions + &of_moves;
     for (name, _) in defects() {
         assert!(tests.contains(&format!("Defect::{name}")), "no test leaves out what {name} does");
     }

@@ -8,11 +8,12 @@ use incircle_hdl::commands::types::{Activity, AnswerProgress, Clearing, Halves, 
 use incircle_hdl::commands::{AnswerBeat, CommandState};
 use incircle_hdl::engine::{Arrival, EngineState};
 use incircle_hdl::engine::{
-    Attempt, Beyond, Bundle, Case, ChangeEvents, CommitJob, CommitRequest, Committed, Completion, ContextState, Deal,
-    Entry, EntryWrite, Events, FillEnd, FillJob, FillRequest, Follow, Following, Held, HoleCame, HoleOf, InnerWrite,
-    LockClear, LockWrite, NearVerdict, Outcome, Passed, Plan, PlanWrite, Planned, Pointer, Position, Push, RecordRead,
-    ReleaseJob, ReleaseRequest, Released, RingHead, RingWord, SeedProgress, SoloPhase, SoloProgress, SoloStart,
-    SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write, WriteEnables,
+    Attempt, Beyond, Bundle, Carried, Case, ChangeEvents, CommitJob, CommitRequest, Committed, Completion,
+    ContextState, Deal, Entry, EntryWrite, Events, FillEnd, FillJob, FillRequest, Follow, Following, Held, HoleCame,
+    HoleOf, InnerWrite, LockClear, LockWrite, Moving, NearVerdict, Outcome, Passed, Plan, PlanWrite, Planned, Pointer,
+    Position, Push, RecordRead, ReleaseJob, ReleaseRequest, Released, RingHead, RingWord, SeedProgress, SoloPhase,
+    SoloProgress, SoloStart, SoloTurn, StarTriangle, Start, Step, Turned, Upcoming, Verdict, Visit, VisitEvents, Write,
+    WriteEnables,
 };
 use incircle_hdl::ethernet::types::{DatagramState, HeadByte, HeaderRow, Kinds, OnTheWay, Station};
 use incircle_hdl::leaf::Unpacked;
@@ -132,6 +133,8 @@ packed_values!(
     RingWord,
     HoleCame,
     HoleOf,
+    Carried,
+    Moving,
     EngineFlags,
     OfferedBeat,
     RoutedWord,

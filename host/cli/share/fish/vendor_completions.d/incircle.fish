@@ -166,7 +166,7 @@ node\t'Shewchuk\'s Triangle, .node'
 npy\t'An array of NumPy with n rows and two columns, .npy'"
 complete -c incircle -n "__fish_incircle_using_subcommand generate" -s h -l help -d 'Print help (see more with \'--help\')'
 complete -c incircle -n "__fish_incircle_using_subcommand bench" -s n -d 'Points of a set, including duplicates, which are then removed' -r
-complete -c incircle -n "__fish_incircle_using_subcommand bench" -l batch -d 'Triangulate JOBS generated sets, each with its own seed, as one batch' -r
+complete -c incircle -n "__fish_incircle_using_subcommand bench" -l batch -d 'Triangulate JOBS generated sets, 1 to 1,000,000, each with its own seed, as one batch' -r
 complete -c incircle -n "__fish_incircle_using_subcommand bench" -l coord-bits -d 'Bits of a coordinate, 1 to 31 (default: 16)' -r
 complete -c incircle -n "__fish_incircle_using_subcommand bench" -l seed -d 'Seed; one seed gives the same points on every machine' -r
 complete -c incircle -n "__fish_incircle_using_subcommand bench" -l backend -d 'Back end' -r -f -a "cpu\t''

@@ -147,6 +147,9 @@ fn a_job_out_of_time_ends_with_six() {
     let run = scratch.run("triangulate p.csv -o m.ele --backend clock --contexts 1 --timeout 0.01");
     run.fails(6, &["clock:full", "0.01 s"]);
     scratch.run("bench uniform -n 8000 --backend clock --timeout 0.01").fails(6, &["clock:full", "0.01 s"]);
+    // The time of a job of a batch is the one that the user chose, whatever is sent ahead.
+    let run = scratch.run("bench uniform -n 2000 --batch 100 --backend clock?config=quad --timeout 0.01");
+    run.fails(6, &["job 1 of the batch, counted from 1: clock:quad did not finish ", " within 0.01 s"]);
     assert_eq!(scratch.files(), ["p.csv"]);
 }
 

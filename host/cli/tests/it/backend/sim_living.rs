@@ -35,8 +35,9 @@ fn the_address_chooses_a_core_with_runs_or_one_without() {
     {
         assert_eq!(compare(&scratch, address)["changes_by"], by, "{address}");
     }
-    let missing = "there is no simulated core \"tiny\" with runs: choose one of small, or the back end clock";
-    scratch.run("replay s.txt -o m.ele --backend sim?config=tiny&living=yes").fails(4, &[missing]);
+    let missing = "there is no simulated core \"tiny\" with runs: choose small, or the back end clock";
+    scratch.run("replay s.txt -o m.ele --backend sim?config=tiny&living=yes").fails(2, &[missing]);
+    scratch.run("info --backend sim?config=quad&living=yes").fails(2, &["\"quad\" with runs: choose small, or"]);
     let plain = "cannot keep a mesh that lives";
     scratch.write("p.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
     scratch.run("interpolate p.csv --grid 4 -o v.csv --backend sim?config=small&living=no --quiet").fails(2, &[plain]);

@@ -196,6 +196,43 @@ fn a_batch_of_too_many_points_is_refused() {
     scratch.run("bench --batch 4096 -n 16384 --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn more_points_than_memory_are_refused_before_they_are_made() {
+    let scratch = Scratch::new();
+    let program = env!("CARGO_BIN_EXE_incircle");
+    let run = |arguments: &str| {
+        let line = format!("ulimit -v 800000 && exec '{program}' bench uniform {arguments}");
+        let output = std::process::Command::new("sh").args(["-c", &line]).current_dir(scratch.path("")).output();
+        Run::of(output.expect("the shell starts"))
+    };
+    for (arguments, sets) in [
+        ("-n 67 --batch 1000000 --backend clock?config=quad", "1000000 jobs of 67 points each"),
+        ("-n 1 --batch 1000000", "1000000 jobs of 1 point each"),
+        ("-n 67108864 --batch 1 --backend cpu", "1 job of 67108864 points each"),
+        ("-n 67108864", "a set of 67108864 points"),
+        ("-n 67108864 --backend clock", "a set of 67108864 points"),
+    ] {
+        run(arguments).fails(7, &[" MiB of memory are needed for ", sets, " MiB are free: "]);
+    }
+    run("-n 200 --batch 50 --backend cpu").ok();
+}
+
+#[test]
+fn negative_numbers_are_refused_with_the_bounds() {
+    let scratch = Scratch::new();
+    for (arguments, told) in [
+        ("--batch -1", "give a whole number from 1 to 1000000"),
+        ("--batch 1000001", "give a whole number from 1 to 1000000"),
+        ("-n -1", "give a whole number from 1 to 4294967295"),
+        ("--coord-bits -1", "give a whole number from 1 to 31"),
+        ("--mhz -1", "give a positive number of megahertz"),
+    ] {
+        let run = scratch.run(&format!("bench {arguments}"));
+        assert!(run.code == Some(2) && run.stderr.contains(told), "{arguments}: {run:?}");
+    }
+}
+
 /// As many jobs share the core as fit. Jobs of 5,000 points, of which only one fits, are exclusive jobs.
 #[test]
 fn jobs_of_middle_size_go_side_by_side() {
@@ -253,6 +290,15 @@ fn arguments_that_do_not_fit_the_core_are_told_before_any_row() {
     let scratch = Scratch::new();
     scratch.run("bench --backend clock --coord-bits 17").fails(7, &["16 bits", "17"]);
     scratch.run("bench --backend clock --contexts 17").fails(2, &["17 contexts", "the 16 of the core full"]);
+    // The advice is one that the command accepts.
+    let run = scratch.run("bench uniform -n 10 --backend clock --contexts 17");
+    run.fails(2, &["choose fewer or --config large"]);
+    let run = scratch.run("bench uniform -n 10 --batch 2 --backend clock?config=quad --contexts 17");
+    run.fails(2, &["the 16 of the core quad", ": choose fewer, or config=large in the address of the back end"]);
+    let run = scratch.run("bench uniform -n 10 --batch 2 --backend clock?config=large --contexts 17").ok();
+    assert!(run.stdout.starts_with("clock large, 17 contexts;"), "{run:?}");
+    let run = scratch.run("bench uniform -n 10 --batch 2 --backend clock?config=large --contexts 25");
+    run.fails(2, &["the 24 of the core large", "): choose fewer\n"]);
     // Only distinct points count: 20000 points fall onto 5000 places.
     let run = scratch.run("bench box -n 20000 --backend clock").ok();
     assert!(run.stdout.starts_with("clock full,"), "{run:?}");

@@ -10,10 +10,11 @@
 //! star's record on the ring edge that begins at the apex. The ids of the two ends become free.
 
 use super::star::Star;
+use super::star::PLACES;
 use crate::clock::attempt::Attempt;
 use crate::clock::memory::Memory;
-use crate::clock::visit::{Bundle, Visit};
-use crate::predicate::{finite_conflict, ghost_conflict, orient2d};
+use crate::clock::visit::{Bundle, Completion, Visit, LAST_EDGE};
+use crate::predicate::{finite_conflict, ghost_conflict, orient2d, Point};
 
 /// The other side of the base of an interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -111,6 +112,21 @@ impl Hole {
     }
 }
 
+/// The test of the edge at which the chains round a star have met.
+pub(super) fn last_edge(star: &Star, context: usize, places: usize) -> Bundle {
+    let hole = Hole { first: star.first, last: star.last, places, ..Hole::default() };
+    Bundle::one(Visit {
+        context,
+        rotates: true,
+        locks: false,
+        entry: star.first,
+        after: star.last,
+        cavity_entry: hole.next(star.first),
+        cavity_record: LAST_EDGE,
+        record: 0,
+    })
+}
+
 /// Whether the challenger of a test replaces the best apex.
 pub(in super::super) fn replaces(visit: &Visit, memory: &Memory) -> bool {
     let entries = &memory.entries[visit.context];
@@ -122,4 +138,35 @@ pub(in super::super) fn replaces(visit: &Visit, memory: &Memory) -> bool {
     }
     let is_left = |p| orient2d(a, b, p) > 0;
     is_left(challenger) && (!is_left(best) || finite_conflict([a, b, best], challenger))
+}
+
+/// Whether a vertex keeps its edges at its new place `p`, as far as one visit can tell.
+///
+/// The root shows that its triangle still turns left. So does a record of the star, and that the edge to the record
+/// before stays. A record outside must not conflict with the place. The last test is that of the edge at which the two
+/// chains have met.
+pub(in super::super) fn keeps_edges(done: &Completion, p: Point, memory: &Memory) -> bool {
+    let Completion { visit, record, .. } = *done;
+    let at = |v: u32| memory.vertex(v);
+    let entries = &memory.entries[visit.context];
+    let turns = |slot: usize| orient2d(at(record.v[(slot + 1) % 3]), at(record.v[(slot + 2) % 3]), p) > 0;
+    // The edge to the middle one of three neighbours stays unless they turn left and the circle leaves the place out.
+    let stays = |v: [u32; 3]| {
+        let r = v.map(at);
+        orient2d(r[0], r[1], r[2]) <= 0 || finite_conflict(r, p)
+    };
+    if visit.is_last_edge() {
+        return stays([visit.after, visit.entry, visit.cavity_entry].map(|place| entries[place].first_vertex));
+    }
+    if !visit.rotates {
+        return done.names.is_some_and(turns);
+    }
+    if visit.is_outside_star() {
+        return !done.conflict;
+    }
+    let is_left = visit.entry < PLACES / 2;
+    let slot = if is_left { 1 } else { 2 };
+    let mut across = record.v;
+    across[slot] = memory.carried[visit.context][usize::from(is_left)];
+    turns(slot) && stays(across)
 }

@@ -26,7 +26,7 @@ use super::outcome::Outcome;
 use super::visit::Bundle;
 use fill::Fill;
 pub(super) use fill::FillEnd;
-pub(super) use hole::{replaces, Hole};
+pub(super) use hole::{keeps_edges, replaces, Hole};
 pub(super) use star::Star;
 use writer::Writer;
 
@@ -63,6 +63,11 @@ impl Holes {
     /// The deletion whose last record is written at this edge.
     pub(super) fn erased(&self) -> Option<CommitJob> {
         self.writer.ends()
+    }
+
+    /// Whether a write will be requested in the next clock, so that a commit requests none.
+    pub(super) fn writes_next(&self) -> bool {
+        self.writer.writes_next()
     }
 
     /// The write that is requested in this clock.

@@ -6,17 +6,14 @@
 //! A visit has its place in `entry`: the root has place 0, the chain to the left goes on to 1, 2, ..., that to the
 //! right to -1, -2, ..., in six bits. The record outside has the place of the record of the star.
 
-use super::hole::Hole;
-use super::star::Star;
+use super::hole::{last_edge, Hole};
+use super::star::{Star, PLACES};
 use crate::clock::attempt::Attempt;
 use crate::clock::defect::Defect;
 use crate::clock::memory::Entry;
 use crate::clock::outcome::{Around, Outcome};
 use crate::clock::release_job::ReleaseJob;
 use crate::clock::visit::{Bundle, Completion, Visit, OUTSIDE};
-
-/// Number of places.
-const PLACES: usize = 64;
 
 /// The first visits round a vertex, from its root: to the left, outside, and to the right.
 fn first_visits(root: &Completion, slot: usize) -> Bundle {
@@ -42,6 +39,7 @@ impl Outcome {
             (false, false) => out.walk_to_vertex(done, around),
             (false, true) => out.star_root(done, around),
             (true, true) => out.star_visit(done, around, *star),
+            (true, false) if done.visit.is_last_edge() => out.last_edge_test(done, around, star),
             (true, false) => out.hole_test(done, hole),
         }
     }
@@ -76,7 +74,9 @@ impl Outcome {
         self.push = Some(first_visits(done, slot));
         self.attempt = Some(Attempt { outstanding: 3, count: 3, logged: 1, ..Attempt::default() });
         self.root = Some(record);
-        self.star = Some(Star { heads: [turned.n[2], turned.n[1]], ..Star::default() });
+        let [_, a, b] = turned.v;
+        let (heads, carried) = ([turned.n[2], turned.n[1]], [b, a]);
+        self.star = Some(Star { heads, carried, keeps: done.keeps, ..Star::default() });
         self
     }
 
@@ -86,6 +86,10 @@ impl Outcome {
         if !self.takes_lock(done, around, &mut state) {
         } else if done.visit.is_outside_star() {
             self.note_outside(done, &mut star, around);
+        } else if done.again {
+            // M14: the point of the record before was torn.
+            self.push = Some(Bundle::one(done.visit));
+            state.outstanding += 1;
         } else {
             self.go_round(done, &mut star, &mut state, around);
         }
@@ -105,6 +109,7 @@ impl Outcome {
     fn note_outside(&mut self, done: &Completion, star: &mut Star, around: &Around) {
         let Completion { visit, record, slot, .. } = *done;
         let place = around.place(visit.entry);
+        star.keeps &= done.keeps;
         let [is_infinite, has_infinite] = [record.v[2] == around.infinite, record.v.contains(&around.infinite)];
         if is_infinite {
             star.infinite = Some(place);
@@ -126,6 +131,8 @@ impl Outcome {
         let is_left = visit.entry < PLACES / 2;
         let (next, outside) = if is_left { (record.n[2], record.n[1]) } else { (record.n[1], record.n[2]) };
         let step = if is_left { 1 } else { PLACES - 1 };
+        star.keeps &= done.keeps;
+        star.carried[usize::from(is_left)] = record.v[if is_left { 2 } else { 1 }];
         let place = around.place(visit.entry);
         if is_left {
             star.last = place;
@@ -151,7 +158,14 @@ impl Outcome {
     /// All visits of the star have completed.
     fn end_star(&mut self, state: &Attempt, star: &Star, around: &Around) {
         if !state.drains {
-            self.opens_hole = Some(Hole::of(star, state, around.places()));
+            // M12: a vertex keeps its edges inside the hull alone.
+            let keeps = star.keeps || around.defect == Some(Defect::MovesWithoutLook);
+            let may_keep = keeps && star.infinite.is_none() || around.stays;
+            if around.moves && may_keep {
+                self.push = Some(last_edge(star, self.context, around.places()));
+            } else {
+                self.opens_hole = Some(Hole::of(star, state, around.places()));
+            }
             return;
         }
         self.sleeps = true;
@@ -164,8 +178,26 @@ impl Outcome {
         }
     }
 
+    /// M12: the last edge of a star that moves has been tested. If it stays, too, the point alone is written.
+    fn last_edge_test(mut self, done: &Completion, around: &Around, star: &Star) -> Self {
+        let state = &around.attempt;
+        if done.keeps || around.stays || around.defect == Some(Defect::MovesWithoutLook) {
+            (self.sleeps, self.duplicate, self.moves_in_place) = (true, true, true);
+            self.returns_priority = true;
+            self.release = Some(ReleaseJob { context: self.context, locks: state.logged });
+        } else {
+            self.opens_hole = Some(Hole::of(star, state, around.places()));
+        }
+        self
+    }
+
     /// A test of four vertices of the ring has completed.
     fn hole_test(mut self, done: &Completion, hole: &Hole) -> Self {
+        // M14: a test whose point was torn says nothing.
+        if done.again {
+            (self.push, self.tests_on) = (Some(hole.test(self.context)), Some(*hole));
+            return self;
+        }
         let hole = hole.tested(done.replaces);
         match hole.apex {
             Some(_) => self.opens_hole = Some(hole),

@@ -73,6 +73,12 @@ impl Writer {
         Some(CommitJob { context: job.context, vertex, locks, ..CommitJob::default() })
     }
 
+    /// Whether a write will be requested in the next clock.
+    pub(super) fn writes_next(&self) -> bool {
+        let is_at = |clocks: usize| self.stages[clocks].is_some();
+        is_at(LATENCY - 1) || is_at(LATENCY) || is_at(LATENCY + 1) && self.links[1].valid
+    }
+
     /// Whether no job can be taken in.
     pub(super) fn is_full(&self) -> bool {
         self.queue.len() >= PLACES

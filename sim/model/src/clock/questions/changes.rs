@@ -51,6 +51,7 @@ pub(super) struct Around {
     pub is_active: bool,
     pub is_change: bool,
     pub deletes: bool,
+    pub moves: bool,
     /// The item on offer, its vertex, and whether the queues take the item that is offered to them.
     pub dealt: Option<(usize, Item)>,
     pub vertex: u32,
@@ -97,7 +98,7 @@ impl Changes {
             Some(dealt) if !is_change => dealt,
             Some(dealt) => dealt.filter(|_| self.state == State::Offer).map(|(context, item)| {
                 let place = self.place.unwrap_or(item.place);
-                (context, Item { place, ..item })
+                (context, Item { place, target: item.place, ..item })
             }),
         }
     }
@@ -111,7 +112,7 @@ impl Changes {
     pub(super) fn clock(&mut self, around: &Around, events: &Events, numbers: &[Item], memory: &Memory) -> Done {
         let mut done = Done { raised: events.committed.map(|(_, vertex)| vertex), ..Done::default() };
         let number = |end: ItemEnd| numbers[end.context].number;
-        let stays = |end: &ItemEnd| end.duplicate.is_some() || end.refused.is_some();
+        let stays = |end: &ItemEnd| end.duplicate.is_some() || end.early.is_some();
         let ends = events.ends.or(events.fill_ends);
         let early = ends.filter(stays).or(events.solo_ends);
         if let Some(end) = ends.filter(|end| !stays(end)) {
@@ -129,7 +130,7 @@ impl Changes {
         done.came = match early {
             Some(end) => {
                 let outcome = if end.duplicate.is_some() { Outcome::Duplicate } else { Outcome::Done };
-                let outcome = end.refused.unwrap_or(outcome);
+                let outcome = end.early.unwrap_or(outcome);
                 Some(part(number(end), outcome, end.duplicate.unwrap_or(end.vertex)))
             }
             None => self.done.pop_front().map(|(number, vertex)| part(number, Outcome::Done, vertex)),
@@ -155,10 +156,13 @@ impl Changes {
 
     /// Looks whether the vertex of the item on offer can be inserted.
     fn check(&mut self, around: &Around, events: &Events, early: Option<ItemEnd>, done: &Done, memory: &Memory) {
-        let unmarked = early.filter(|end| end.duplicate.is_some()).map(|end| end.vertex);
-        // A vertex that cannot be deleted is in use again.
-        let remarked = early.filter(|end| end.refused.is_some()).map(|end| end.vertex);
-        let launched = events.launch.filter(|_| !around.deletes).map(|launch| launch.item.vertex);
+        let finds = around.deletes || around.moves;
+        let unmarked = early.filter(|end| end.duplicate.is_some() && !around.moves).map(|end| end.vertex);
+        // A vertex that cannot be deleted is in use again, and so is one that has moved.
+        let has_moved = |part: &Part| part.outcome != Outcome::Duplicate && around.moves && !done.is_noted;
+        let moved = done.came.filter(has_moved).map(|part| part.located.vertices[0]);
+        let remarked = early.filter(|end| end.early.is_some()).map(|end| end.vertex).or(moved);
+        let launched = events.launch.filter(|_| !finds).map(|launch| launch.item.vertex);
         let marked = remarked.or(launched).or(events.taken);
         let is_taken = unmarked.is_some() || marked.is_some();
         let (was_known, was_seeding, vertex) = (self.known, self.seeding, around.vertex);
@@ -178,12 +182,12 @@ impl Changes {
             State::Idle => State::Idle,
             State::Look if is_taken || events.fetches => State::Look,
             State::Look => {
-                self.place = around.deletes.then(|| memory.vertex(vertex & 0x7fff));
+                self.place = finds.then(|| memory.vertex(vertex & 0x7fff));
                 self.read = self.in_use.get(vertex as usize).copied().unwrap_or(false);
                 State::Fetch
             }
             State::Fetch => State::Judge,
-            State::Judge if around.deletes => self.judge_deletion(vertex, was_known, is_taken),
+            State::Judge if finds => self.judge_deletion(vertex, was_known, is_taken),
             State::Judge if vertex as usize >= self.in_use.len() => State::Refuse(Outcome::Full),
             State::Judge if vertex >= was_known => State::Raise,
             State::Judge if self.read => State::Refuse(Outcome::InUse),
@@ -209,7 +213,7 @@ impl Changes {
         };
     }
 
-    /// Decides whether a vertex can be deleted. From then on it is not in use.
+    /// Decides whether a vertex can be deleted or moved. From then on it is not in use.
     fn judge_deletion(&mut self, vertex: u32, known: u32, is_taken: bool) -> State {
         match () {
             () if vertex >= known || !self.read => State::Refuse(Outcome::Missing),
@@ -227,7 +231,7 @@ impl Changes {
             self.late = None;
         }
         if let Some((vertex, place)) = events.arrival.filter(|_| self.has_changed) {
-            self.late = Some((self.turn, Item { number: 0, place, vertex }));
+            self.late = Some((self.turn, Item { number: 0, place, vertex, target: place }));
             self.turn = (self.turn + 1) % around.contexts;
         }
     }

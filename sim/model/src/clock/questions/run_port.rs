@@ -162,7 +162,7 @@ impl RunPort {
         let place = Point { x: word & 0xffff, y: word >> 16 };
         // The item of a `Delete` has no point: its word is the vertex.
         self.vertex = first.unwrap_or(word);
-        self.held = Some((self.context, Item { number: self.number, place, vertex: self.vertex }));
+        self.held = Some((self.context, Item { number: self.number, place, vertex: self.vertex, target: place }));
         self.number = part_item(self.number + 1);
         self.context = (self.context + 1) % contexts;
         self.left -= 1;

@@ -10,6 +10,8 @@ pub(in super::super) struct Item {
     pub place: Point,
     /// The vertex of an item of a change.
     pub vertex: u32,
+    /// The place to which a `Move` takes the vertex; then `place` is the one that the vertex leaves.
+    pub target: Point,
 }
 
 /// An item of a change that begins, and the record at which its walk begins.
@@ -20,6 +22,8 @@ pub(in super::super) struct Launch {
     pub record: u32,
     /// Whether the point has to be stored.
     pub stores: bool,
+    /// Whether a vertex goes back into the mesh that its item has taken out of it.
+    pub returns: bool,
 }
 
 /// The end of the item of a context, with the vertex that the context inserts.
@@ -29,8 +33,8 @@ pub(in super::super) struct ItemEnd {
     pub vertex: u32,
     /// The vertex that has the point of the item.
     pub duplicate: Option<u32>,
-    /// Why the vertex of the item was not deleted.
-    pub refused: Option<Outcome>,
+    /// The outcome of an item that ends with its star or its hole: why its vertex stays, or `Done` for a move in place.
+    pub early: Option<Outcome>,
 }
 
 /// The events of the insertion engine at an edge.
@@ -46,6 +50,8 @@ pub(in super::super) struct Events {
     pub root: Option<(usize, u32)>,
     /// The last write of a commit is requested; its context and its new vertex.
     pub committed: Option<(usize, u32)>,
+    /// A vertex is out of the mesh and goes back into it: the context of its item.
+    pub taken_out: Option<usize>,
     /// The vertex that a context takes without an item.
     pub taken: Option<u32>,
     /// The vertex memory is asked for a point of a hole.

@@ -5,7 +5,7 @@ use incircle_protocol::{command_word, Clear, Opcode, FULL};
 use incircle_testkit::{generate, Distribution, SplitMix64};
 
 /// Number of clocks of these commands, until this many words of answers have been taken.
-fn clocks(model: &mut ClockModel, words: &[u32], answers: usize) -> usize {
+pub fn clocks(model: &mut ClockModel, words: &[u32], answers: usize) -> usize {
     let (mut rest, mut taken, mut clocks) = (words, 0, 0);
     while !rest.is_empty() || taken < answers {
         let outputs = model.outputs();
@@ -42,7 +42,7 @@ fn on_curve([x, y]: [u32; 2]) -> u64 {
 }
 
 /// Items of a run in Hilbert order, a stretch for each of 16 contexts.
-fn dealt(points: &[[u32; 2]], vertices: &[usize]) -> Vec<usize> {
+pub fn dealt(points: &[[u32; 2]], vertices: &[usize]) -> Vec<usize> {
     let mut order = vertices.to_vec();
     order.sort_by_key(|&vertex| on_curve(points[vertex]));
     let stretch = order.len() / 16;

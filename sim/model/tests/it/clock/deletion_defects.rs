@@ -6,6 +6,7 @@ use super::deletions::KINDS;
 use crate::common::living::{Fault, Pair};
 use crate::living::scripts::Script;
 use incircle_model::{ClockModel, Defect};
+use incircle_protocol::RunKind;
 use std::panic::{catch_unwind, AssertUnwindSafe};
 
 /// What went wrong in a script without a rule.
@@ -17,9 +18,9 @@ enum Symptom {
 }
 
 /// Runs a script in 16 contexts on a core with or without one of its rules.
-fn run(seed: u32, defect: Option<Defect>) -> Result<(), Fault> {
+fn run(kinds: &'static [RunKind], seed: u32, defect: Option<Defect>) -> Result<(), Fault> {
     let mut script = Script::crowded(seed);
-    script.kinds = &KINDS;
+    script.kinds = kinds;
     let config = script.config();
     let core = ClockModel::new(config).expect("a core that can be built").with_questions();
     let core = match defect {
@@ -29,8 +30,8 @@ fn run(seed: u32, defect: Option<Defect>) -> Result<(), Fault> {
     script.run_on(Pair::of(config, core)).map(drop)
 }
 
-fn symptom(seed: u32, defect: Defect) -> Option<Symptom> {
-    match catch_unwind(AssertUnwindSafe(|| run(seed, Some(defect)).err())) {
+fn symptom(kinds: &'static [RunKind], seed: u32, defect: Defect) -> Option<Symptom> {
+    match catch_unwind(AssertUnwindSafe(|| run(kinds, seed, Some(defect)).err())) {
         Err(_) => Some(Symptom::Panic),
         Ok(None) => None,
         Ok(Some(Fault::Hang)) => Some(Symptom::Hang),
@@ -40,9 +41,14 @@ fn symptom(seed: u32, defect: Defect) -> Option<Symptom> {
 
 /// Looks for the first of so many scripts that a core without this rule does wrong.
 fn expect(defect: Defect, most: u32) {
+    expect_in(&KINDS, defect, most);
+}
+
+/// As [`expect`], in scripts of these kinds of runs.
+pub fn expect_in(kinds: &'static [RunKind], defect: Defect, most: u32) {
     for seed in 0..most {
-        if let Some(found) = symptom(seed, defect) {
-            if let Err(fault) = run(seed, None) {
+        if let Some(found) = symptom(kinds, seed, defect) {
+            if let Err(fault) = run(kinds, seed, None) {
                 panic!("the complete core, script {seed}: {fault:?}");
             }
             println!("{defect:?}, script {seed}: {found:?}");

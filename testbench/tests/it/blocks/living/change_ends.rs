@@ -18,6 +18,7 @@ named_ports!(
         number,
         corner,
         is_delete,
+        is_move,
         refuses,
         is_beyond,
         refused_number,
@@ -44,6 +45,8 @@ enum Event {
     Solo {
         inserts: bool,
     },
+    /// A move in place ends.
+    Moves,
     /// The hole of a deletion is full, or no triangle would be left.
     Fill {
         is_flat: bool,
@@ -58,19 +61,27 @@ fn change_ends_gives_each_item_its_part() {
     let mut handed = [None::<[u64; 2]>; 2];
     let mut due: VecDeque<[u64; 2]> = VecDeque::new();
     let mut last = [0; 3];
+    let mut run = 0;
     let mut seen = [0; 7];
     for clock in 0..20_000 {
         let (reset, runs) = (clock < 4, !random.once_in(10) || !due.is_empty());
         let context = random.below(2);
         let [number, vertex, corner] = [random.bits(24), random.bits(15), random.bits(15)];
-        let is_delete = random.once_in(2);
-        let event = match random.below(8) {
+        // The run changes only while no part is due.
+        if due.is_empty() && handed == [None; 2] {
+            run = random.below(3);
+        }
+        let [is_delete, is_move] = [run > 0, run == 2];
+        // A visit of a move may be one of its deletion, or of its insertion.
+        let finds = is_delete && (!is_move || random.once_in(2));
+        let event = match random.below(9) {
             _ if reset => Event::Nothing,
-            0 | 1 if handed[context as usize].is_none() => Event::HandsOver,
+            0 | 1 if handed[context as usize].is_none() && !finds => Event::HandsOver,
             2 => Event::Duplicate,
-            3 if !is_delete => Event::Solo { inserts: random.once_in(2) },
+            3 if !finds => Event::Solo { inserts: random.once_in(2) },
             3 => Event::Fill { is_flat: true },
-            4 if is_delete && handed[context as usize].is_none() => Event::Fill { is_flat: false },
+            8 if is_move => Event::Moves,
+            4 if is_delete && !is_move && handed[context as usize].is_none() => Event::Fill { is_flat: false },
             _ => Event::Nothing,
         };
         let committed = (0..2).find(|&context| handed[context].is_some() && random.once_in(4) && due.len() < 2);
@@ -81,7 +92,10 @@ fn change_ends_gives_each_item_its_part() {
         block.set("reset", reset);
         block.set("runs", runs);
         block.set("events_hands_over", event == Event::HandsOver);
-        block.set("events_duplicate", event == Event::Duplicate);
+        block.set("events_duplicate", [Event::Duplicate, Event::Moves].contains(&event));
+        block.set("events_finds", finds || event == Event::Moves);
+        block.set("events_moves_in_place", event == Event::Moves);
+        block.set("is_move", is_move);
         block.set("events_vertex", vertex);
         block.set("events_commit_ends", committed.is_some());
         block.set("events_committed_context", committed.unwrap_or(0) as u64);
@@ -113,8 +127,9 @@ fn change_ends_gives_each_item_its_part() {
         let hands_over = matches!(event, Event::HandsOver | Event::Fill { is_flat: false });
         let is_early = ends && !hands_over;
         let part = match event {
-            Event::Duplicate if is_delete => Some((number, MANY_NEIGHBORS, vertex)),
+            Event::Duplicate if finds => Some((number, MANY_NEIGHBORS, vertex)),
             Event::Duplicate => Some((number, DUPLICATE, corner)),
+            Event::Moves => Some((number, 0, vertex)),
             Event::Fill { is_flat: true } => Some((number, FLAT, vertex ^ 1)),
             Event::Solo { inserts: true } => Some((last[0], 0, last[1])),
             Event::Solo { inserts: false } => Some((last[0], DUPLICATE, last[2])),
@@ -147,12 +162,15 @@ fn change_ends_gives_each_item_its_part() {
             }
             let unmarked = match event {
                 Event::Duplicate if !is_delete => Some(vertex),
-                Event::Solo { inserts: false } => Some(last[1]),
+                Event::Solo { inserts: false } if !is_move => Some(last[1]),
                 _ => None,
             };
             let remarked = match event {
-                Event::Duplicate if is_delete => Some(vertex),
+                Event::Duplicate if finds => Some(vertex),
+                Event::Moves => Some(vertex),
                 Event::Fill { is_flat: true } => Some(vertex ^ 1),
+                Event::Solo { inserts: true } if is_move => Some(last[1]),
+                Event::Nothing | Event::HandsOver if is_move => due.front().map(|&[_, vertex]| vertex),
                 _ => None,
             };
             let raised = match event {

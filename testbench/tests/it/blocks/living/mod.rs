@@ -7,6 +7,7 @@ mod near_search;
 mod part_queue;
 mod question_step;
 mod questions;
+mod return_line;
 mod run_gate;
 mod run_port;
 mod standing_view;

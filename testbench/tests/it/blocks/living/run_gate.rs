@@ -50,7 +50,7 @@ fn run_gate_gives_each_word_to_one_side() {
     let mut begun = 0;
     for _ in 0..ROUNDS {
         let [valid, ready, is_active, awaits, core_takes, run_takes] = [(); 6].map(|()| flip(&mut random));
-        let opcode = [0, 3, 7, 8, 9, 10, 11, 14, 0x88][random.below(9) as usize];
+        let opcode = [0, 3, 7, 8, 9, 10, 11, 12, 13, 14, 0x88][random.below(11) as usize];
         let word = opcode << 24 | random.bits(24);
         block.set("command_valid", valid);
         block.set("command_data", word);
@@ -68,7 +68,7 @@ fn run_gate_gives_each_word_to_one_side() {
             beat
         });
         block.settle();
-        let begins = valid && awaits && !is_active && [8, 9, 10, 11].contains(&opcode);
+        let begins = valid && awaits && !is_active && [8, 9, 10, 11, 12, 13].contains(&opcode);
         begun += usize::from(begins);
         block.expect("begins", begins);
         block.expect("opcode", opcode);

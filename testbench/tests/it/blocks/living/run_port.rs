@@ -7,7 +7,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     RunPort,
     [reset, begins, opcode, signature, contexts, has_mesh, command.valid, command.data, taken, is_over],
-    [command.ready, dealt, is_change, is_delete, vertex, head, is_active, is_nearest],
+    [command.ready, dealt, is_change, is_delete, is_move, vertex, head, is_active, is_nearest],
     clock
 );
 
@@ -16,6 +16,7 @@ const INTERPOLATE: u64 = 9;
 const NEAREST: u64 = 10;
 const INSERT_AS: u64 = 11;
 const DELETE: u64 = 12;
+const MOVE: u64 = 13;
 const BAD_RANGE: u64 = 2;
 const NO_MESH: u64 = 7;
 
@@ -43,14 +44,14 @@ impl Run {
     fn part_words(&self) -> u64 {
         match self.opcode {
             INTERPOLATE => 10,
-            NEAREST | INSERT_AS | DELETE => 2,
+            NEAREST | INSERT_AS | DELETE | MOVE => 2,
             _ => 4,
         }
     }
 
     /// Number of words of an item.
     fn item_words(&self) -> u64 {
-        if self.opcode == INSERT_AS {
+        if [INSERT_AS, MOVE].contains(&self.opcode) {
             2
         } else {
             1
@@ -119,10 +120,12 @@ impl Run {
                 block.expect("dealt_item_place", given[end - 1]);
                 block.expect("is_change", self.opcode >= INSERT_AS);
                 block.expect("is_delete", self.opcode == DELETE);
+                block.expect("is_move", self.opcode == MOVE);
+                block.expect("dealt_item_target", given[end - 1]);
                 if self.opcode == DELETE {
                     block.expect("vertex", given[end - 1]);
                 }
-                if self.opcode == INSERT_AS {
+                if self.item_words() == 2 {
                     block.expect("vertex", given[end - 2]);
                     block.expect("dealt_item_vertex", given[end - 2] & 0x7fff);
                 }
@@ -159,7 +162,7 @@ fn run_port_deals_the_items_in_turn() {
     reset(&mut block);
     for number in 0..300 {
         let run = Run {
-            opcode: LOCATE + random.below(5),
+            opcode: LOCATE + random.below(6),
             count: [0, 1, 5, 60][number % 4],
             has_mesh: !random.once_in(4),
             contexts: 1 + random.below(24),
@@ -181,6 +184,8 @@ fn run_port_refuses_a_run_whose_answer_is_too_long() {
         (INSERT_AS, 1 << 31, true),
         (INSERT_AS, (1 << 31) - 1, false),
         (DELETE, 1 << 31, true),
+        (MOVE, 1 << 31, true),
+        (MOVE, (1 << 31) - 1, false),
         (NEAREST, 1 << 31, true),
         (NEAREST, (1 << 31) - 1, false),
     ] {

@@ -1,6 +1,7 @@
 //! Tests of the blocks in `hdl/src/engine/visit`.
 
 mod issue;
+mod moved_star;
 mod near_corner;
 mod near_logic;
 mod push_port;

@@ -1,0 +1,46 @@
+//! The point of a move in place, on its way to the vertex memory.
+//!
+//! Hardware twin: the block `LatePoint`.
+
+use super::wires::Wires;
+use crate::predicate::Point;
+
+/// Number of clocks that a point waits at most. The first lock of its attempt is cleared four clocks after the attempt
+/// has ended, and whoever takes that lock reads points two clocks later, so all of them are after the write.
+const MOST: u32 = 4;
+
+/// A point that waits for a clock in which no visit fetches a fourth point, because both use one port.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LatePoint {
+    vertex: u32,
+    point: Point,
+    waited: u32,
+}
+
+impl LatePoint {
+    pub fn new(vertex: u32, point: Point) -> Self {
+        Self { vertex, point, waited: 0 }
+    }
+
+    /// Whether the point can wait no longer. No item begins in such a clock, because its point could need the port.
+    pub fn is_last_chance(&self) -> bool {
+        self.waited == MOST
+    }
+
+    /// Whether the point wants the port in this clock, in which a visit `fetches` a point or not, and another point may
+    /// come.
+    pub fn is_due(&self, fetches: bool, comes: bool) -> bool {
+        !fetches || comes || self.is_last_chance()
+    }
+
+    /// The vertex and its point.
+    pub fn arrival(&self) -> (u32, Point) {
+        (self.vertex, self.point)
+    }
+
+    /// The point that waits after an edge.
+    pub fn after(was: Option<Self>, wires: &Wires) -> Option<Self> {
+        let waits = was.filter(|late| wires.new_point != Some(late.arrival()));
+        wires.moved.or(waits.map(|late| Self { waited: late.waited + 1, ..late }))
+    }
+}
