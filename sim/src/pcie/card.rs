@@ -1,5 +1,6 @@
 //! The behaviour behind the files of a card: streams that block as those of the driver XDMA do, registers, and faults.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -14,6 +15,8 @@ use crate::faults::Random;
 const ALL_ONES: u32 = u32::MAX;
 /// Longest sleep of a call that waits.
 const NAP: Duration = Duration::from_millis(100);
+/// Time for which a call that makes progress leaves the card to others that wait for it.
+const TURN: Duration = Duration::from_micros(50);
 /// Number of extra beats behind an answer that hides its end.
 const EXTRA_BEATS: usize = 4;
 const EXTRA_BYTE: u8 = 0x5a;
@@ -47,6 +50,9 @@ pub struct CardFigures {
 /// A card behind its driver.
 pub struct Card {
     inside: Mutex<Inside>,
+    /// Number of calls that wait for the mutex. It is not fair: a call that lets go of it and takes it again at once would
+    /// leave them outside.
+    waiting: AtomicUsize,
     changed: Condvar,
     timeout: Duration,
 }
@@ -169,11 +175,15 @@ impl Card {
             is_closed: false,
             spec: spec.clone(),
         };
-        Self { inside: Mutex::new(inside), changed: Condvar::new(), timeout: Duration::from_millis(spec.timeout_ms) }
+        let (inside, waiting, changed) = (Mutex::new(inside), AtomicUsize::new(0), Condvar::new());
+        Self { inside, waiting, changed, timeout: Duration::from_millis(spec.timeout_ms) }
     }
 
     fn lock(&self) -> MutexGuard<'_, Inside> {
-        self.inside.lock().unwrap_or_else(PoisonError::into_inner)
+        self.waiting.fetch_add(1, Ordering::Relaxed);
+        let inside = self.inside.lock().unwrap_or_else(PoisonError::into_inner);
+        self.waiting.fetch_sub(1, Ordering::Relaxed);
+        inside
     }
 
     /// Writes commands, and returns when the card has all of them.
@@ -251,7 +261,10 @@ impl Card {
                 // Another call may be waiting for this progress.
                 self.changed.notify_all();
                 drop(inside);
-                std::thread::yield_now();
+                match self.waiting.load(Ordering::Relaxed) {
+                    0 => std::thread::yield_now(),
+                    _ => std::thread::sleep(TURN),
+                }
                 inside = self.lock();
             } else {
                 let nap = if left.is_zero() { NAP } else { left.min(NAP) };
