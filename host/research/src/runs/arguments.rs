@@ -21,6 +21,9 @@ pub struct RunsArguments {
     /// Also count runs in random order
     #[arg(long)]
     pub random: bool,
+    /// Count on the model of the blocks that the hardware has, instead of on that of the living engine: cycles alone
+    #[arg(long)]
+    pub hardware: bool,
     /// Repetitions of the deletions and insertions, to see that the cycles do not grow
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub rounds: u32,

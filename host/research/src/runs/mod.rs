@@ -30,7 +30,7 @@ pub fn runs(arguments: &RunsArguments) -> Result<(), Failure> {
     for &set in &arguments.sets {
         for along_curve in [true, false] {
             if along_curve || arguments.random {
-                let mut script = Script::new(arguments, set, along_curve, Core::new(config)?)?;
+                let mut script = Script::new(arguments, set, along_curve, Core::new(config, arguments.hardware)?)?;
                 script.run(&mut |kind, tally| print(&row(set, along_curve, kind, tally)).map_err(Failure::from))?;
             }
         }
