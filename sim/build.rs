@@ -51,7 +51,7 @@ fn main() {
     for config in LIVING {
         let name = format!("living_core_{}", config.name);
         if is_wanted(&name) {
-            let verilog = exported(&name, export::core_with_questions(config, false));
+            let verilog = exported(&name, export::core_with_runs(config, false));
             let source = ModelSource::new(&name, TOP, verilog).fast_clocks(true);
             builder = builder.model(source.optimisation(Optimisation::Fast));
         }

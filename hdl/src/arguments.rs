@@ -100,7 +100,8 @@ pub(crate) struct ExportArguments {
     )]
     pub(crate) engines: u32,
     /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs, Delete and
-    /// Move. For cores of one engine, alone or behind a serial or a stream link, with at most 32 boundary edges in a list.
+    /// Move. For cores of one engine, alone or behind a serial or a stream link, with at most 32 boundary edges in a
+    /// list.
     #[arg(long, requires = "core_size")]
     pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.

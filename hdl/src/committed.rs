@@ -91,7 +91,7 @@ pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
     let Config { name, points, ring, contexts, engines } = config;
     let (what, verilog) = match top {
         Top::Core => ("incircle core", export::core(config, with_probe)?),
-        Top::Living => ("incircle core with runs", export::core_with_questions(config, with_probe)?),
+        Top::Living => ("incircle core with runs", export::core_with_runs(config, with_probe)?),
         Top::LivingSerial(link) => {
             ("incircle core with runs behind a serial link", export::serial_top_with_runs(config, link, with_probe)?)
         }

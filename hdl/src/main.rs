@@ -28,7 +28,7 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
         TopName::Core if living => Top::Living,
         TopName::Serial if living => Top::LivingSerial(serial),
         TopName::Stream if living => Top::LivingStream(width),
-        _ if living => return Err(committed::WriteError::Export(ExportError::RunsBehindLink)),
+        TopName::Udp if living => return Err(committed::WriteError::Export(ExportError::RunsBehindUdp)),
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(serial),
         TopName::Stream => Top::Stream(width),

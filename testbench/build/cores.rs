@@ -29,9 +29,9 @@ pub fn all() -> Vec<(&'static str, String)> {
     vec![
         ("core_least", core(least)),
         ("core_tiny", core(TINY)),
-        ("core_tiny_questions", with_questions(TINY)),
-        ("core_small_questions", with_questions(SMALL)),
-        ("core_crowd_questions", with_questions(CROWD)),
+        ("core_tiny_questions", with_runs(TINY)),
+        ("core_small_questions", with_runs(SMALL)),
+        ("core_crowd_questions", with_runs(CROWD)),
         ("core_small", core(SMALL)),
         (FAST_CLOCKS, core(SMALL)),
         ("core_small_ring9", core(ring9)),
@@ -45,8 +45,8 @@ pub fn all() -> Vec<(&'static str, String)> {
         ("faulty_core_dual", with_broken_engine(DUAL_OF_64)),
         ("faulty_core_small", with_switches(&core(SMALL), FAULTS)),
         ("faulty_core_long_list", with_switches(&core(LONG_LIST), FAULTS)),
-        ("faulty_core_questions", with_switches(&with_questions(TINY), QUESTION_FAULTS)),
-        ("faulty_core_changes", with_switches(&with_questions(CROWD), CHANGE_FAULTS)),
+        ("faulty_core_questions", with_switches(&with_runs(TINY), QUESTION_FAULTS)),
+        ("faulty_core_changes", with_switches(&with_runs(CROWD), CHANGE_FAULTS)),
     ]
 }
 
@@ -54,8 +54,8 @@ fn core(config: Config) -> String {
     export::core(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
 }
 
-fn with_questions(config: Config) -> String {
-    export::core_with_questions(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
+fn with_runs(config: Config) -> String {
+    export::core_with_runs(config, true).unwrap_or_else(|error| panic!("core {}: {error}", config.name))
 }
 
 /// A core with all these faults in its Verilog, each behind a switch: one bit of the port `faults` of the root module.

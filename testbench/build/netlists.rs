@@ -26,7 +26,8 @@ const OPEN_PINS: &str = "/* verilator lint_off PINMISSING */\n";
 /// Name and configuration of each core that is simulated as a netlist.
 const NETLISTS: [(&str, Config); 2] = [("netlist_small", SMALL), ("netlist_dual_tiny", DUAL_TINY)];
 
-/// Name of the netlist of `small` with runs. Its synthesis takes minutes, so it is made only if `INCIRCLE_ONLY` names it.
+/// Name of the netlist of `small` with runs. Its synthesis takes minutes, so it is made only if `INCIRCLE_ONLY` names
+/// it.
 const LIVING: &str = "netlist_living_small";
 
 /// Name and Verilog of every netlist, with that of a core with runs if `with_runs` says so. Each has the probe.
@@ -37,7 +38,7 @@ pub fn all(with_runs: bool) -> Vec<(&'static str, String)> {
     let mut netlists: Vec<_> =
         NETLISTS.iter().map(|&(name, config)| (name, made(export::core(config, true), name))).collect();
     if with_runs {
-        netlists.push((LIVING, made(export::core_with_questions(SMALL, true), LIVING)));
+        netlists.push((LIVING, made(export::core_with_runs(SMALL, true), LIVING)));
     }
     netlists
 }

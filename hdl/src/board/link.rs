@@ -91,7 +91,7 @@ impl BoardLink {
         match self.at(clock_mhz) {
             Self::Serial if has_runs => Ok(export::serial_top_with_runs(config, board.link(clock_mhz), false)?),
             Self::Serial => Ok(export::serial_top(config, board.link(clock_mhz), false)?),
-            Self::Udp(_) if has_runs => Err(ExportError::RunsBehindLink.into()),
+            Self::Udp(_) if has_runs => Err(ExportError::RunsBehindUdp.into()),
             Self::Udp(parameters) => {
                 let Rgmii { delay, clock_delay, .. } = board.port()?;
                 Ok(export::udp_top(config, parameters, UdpPins::Rgmii { delay, clock_delay }, false)?)

@@ -91,7 +91,7 @@ pub const BOARDS: [Board; 3] = [
         chip: ["--85k", "--speed", "6", "--package", "CABGA381"],
         oscillator_hz: 25 * MHZ,
         most_mhz: 150,
-        least_mhz: 50,
+        least_mhz: 40,
         cores: &[BoardCore { config: FULL, usual_mhz: 120 }, BoardCore { config: QUAD, usual_mhz: 100 }],
         fifo_bytes: 16384,
         bridge: "FT231X",

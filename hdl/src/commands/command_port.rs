@@ -88,7 +88,7 @@ const _: () = assert!(
 
 impl CommandPort {
     /// The port of a core that answers questions.
-    pub fn with_questions() -> Self {
+    pub fn with_runs() -> Self {
         Self {
             awaits_command: vec![Signal::default()],
             point_waits: vec![Signal::default()],

@@ -75,8 +75,8 @@ pub struct InsertionEngine {
     pub change_runs: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
     /// Ids are kept for the vertex of the item that begins. A run of deletions is under way, or one of moves. A vertex
-    /// whose point is wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A vertex is deleted,
-    /// or has come back with the ids that were kept for it.
+    /// whose point is wanted, unless the engine itself fetches one (`fetches`), and its point two clocks later. A
+    /// vertex is deleted, or has come back with the ids that were kept for it.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
     pub moving: Vec<Signal<In, Moving>>,
@@ -103,10 +103,10 @@ impl InsertionEngine {
     }
 
     /// Builds the engine of a core that answers questions.
-    pub fn with_questions(config: Config) -> Self {
+    pub fn with_runs(config: Config) -> Self {
         Self {
             pipeline: VisitPipeline::with_sides(config),
-            push_port: PushPort::with_questions(),
+            push_port: PushPort::with_runs(),
             question_runs: vec![Signal::default()],
             question_asks: vec![Signal::default()],
             question: vec![Signal::default()],
@@ -245,7 +245,8 @@ impl Logic for InsertionEngine {
             self.insertions.deletes[i].next = self.deletes[i].val();
             self.insertions.issued[i].next = self.pipeline.issued[i].val();
             self.insertions.turns_left[i].next = self.pipeline.turns_left[i].val();
-            self.pipeline.deletes[i].next = self.insertions.hole_runs[i].val() & (!self.solo.progress.val().is_at_work);
+            self.pipeline.hole_runs[i].next =
+                self.insertions.hole_runs[i].val() & (!self.solo.progress.val().is_at_work);
             self.insertions.moving[i].next = self.moving[i].val();
             self.insertions.sides[i].next = self.pipeline.sides[i].val();
             self.pipeline.moving[i].next = self.moving[i].val();

@@ -65,10 +65,11 @@ pub struct Insertions {
     pub is_pending: Vec<Signal<In, Bit>>,
     pub changes: Vec<Signal<Out, ChangeEvents>>,
     /// In such a core: ids are kept for the vertex of the item that begins. A run of deletions is under way, or one of
-    /// moves, with the item that begins; the visit that reads its record, and the vertices of its test; whether the
-    /// corners of the completed visit turn left, and the point against its sides; the point that a move in place writes;
-    /// the vertices that chains carry; a test that enters the queue; the two ids of a solo insertion; a vertex is put
-    /// out of the mesh, or has come back.
+    /// moves, with the item that begins, or one of either (`hole_runs`). The visit that reads its record, and the
+    /// vertices of its test. Whether the corners of the completed visit turn left, and the point against its sides. The
+    /// point of a move in place that ends; the vertices that chains carry; a test that enters the queue; the two ids of
+    /// a solo insertion; a vertex is put out of the mesh, or has come back. A point must be written, so no item begins
+    /// (`is_last_chance`).
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
     pub moving: Vec<Signal<In, Moving>>,
@@ -78,8 +79,6 @@ pub struct Insertions {
     pub sides: Vec<Signal<In, Sides>>,
     pub hole_runs: Vec<Signal<Out, Bit>>,
     pub moved: Vec<Signal<Out, Arrival>>,
-    /// The point of a move in place that waits takes its last chance of a write, so no item begins.
-    pub is_last_chance: Vec<Signal<In, Bit>>,
     pub carried: Vec<Signal<Out, Carried>>,
     pub fill_push: Vec<Signal<Out, Bundle>>,
     pub fill_pushes: Vec<Signal<Out, Bit>>,
@@ -87,6 +86,7 @@ pub struct Insertions {
     pub solo_second: Vec<Signal<Out, TriangleId>>,
     pub erases: Vec<Signal<Out, Bit>>,
     pub returns: Vec<Signal<Out, Bit>>,
+    pub is_last_chance: Vec<Signal<In, Bit>>,
     holes: Vec<Holes>,
     merge: Vec<HoleMerge>,
     view: Vec<ChangeView>,

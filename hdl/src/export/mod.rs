@@ -34,7 +34,7 @@ pub enum ExportError {
     /// A width of beats with which no stream link can be built.
     BeatBits(u32),
     /// A core with runs was asked for behind a link that it cannot have.
-    RunsBehindLink,
+    RunsBehindUdp,
 }
 
 impl fmt::Display for ExportError {
@@ -43,7 +43,7 @@ impl fmt::Display for ExportError {
             Self::Config(error) => return error.fmt(f),
             Self::Link(error) => return error.fmt(f),
             Self::Udp(error) => return error.fmt(f),
-            Self::RunsBehindLink => {
+            Self::RunsBehindUdp => {
                 return f.write_str(
                     "a core with runs has no UDP link: choose the serial link, the stream link, or the core alone",
                 );
@@ -137,7 +137,7 @@ pub fn core(config: Config, with_probe: bool) -> Result<String, ExportError> {
 ///
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
-pub fn core_with_questions(config: Config, with_probe: bool) -> Result<String, ExportError> {
+pub fn core_with_runs(config: Config, with_probe: bool) -> Result<String, ExportError> {
     on_large_stack(|| {
         let inside = format!("{CORE_NAME}_logic");
         Ok(format!("{}{}", connected(LivingCore::new(config)?, &inside)?, wrapper(&inside, config.engines, with_probe)))

@@ -5,8 +5,8 @@
 //! 2. A part with the outcome `Done` is given when the last write of the commit is on its way. At most one part is
 //!    given in a clock. The part of a commit waits for those of duplicates and solo insertions, and goes before a
 //!    refusal.
-//! 3. The item of a move ends when its point is written, if it moves in place, or as an insertion does. A vertex that has
-//!    moved is in use again when its part is given.
+//! 3. The item of a move in place ends when its last visit completes; that of any other move ends as an insertion does.
+//!    A vertex that has moved is in use again when its part is given.
 //! 4. Outside a run no part is given: the items are then the points of an `Insert`.
 //!
 //! Latency: none (combinational) from an event to `ends` and `came`, unless the part waits.
@@ -31,7 +31,7 @@ pub struct ChangeEnds {
     pub number: Signal<In, ItemNumber>,
     pub corner: Signal<In, VertexId>,
     /// The run is one of `Delete` or `Move`; it is one of `Move`.
-    pub is_delete: Signal<In, Bit>,
+    pub hole_runs: Signal<In, Bit>,
     pub is_move: Signal<In, Bit>,
     /// An item is refused, because its vertex lies beyond the capacity or is in use; its number and its vertex. There
     /// is room for its part (`has_room`), and the part is given (`is_noted`).
@@ -125,7 +125,7 @@ impl Logic for ChangeEnds {
         }
         self.raises.next = self.events.val().commit_ends | self.events.val().solo_inserts;
         self.raised.next = self.events.val().committed_vertex;
-        self.unmarks.next = ((self.events.val().duplicate & (!self.is_delete.val()))
+        self.unmarks.next = ((self.events.val().duplicate & (!self.hole_runs.val()))
             | (self.events.val().solo_ends & (!self.events.val().solo_inserts)))
             & (!self.is_move.val());
         self.unmarked.next = self.events.val().vertex;
@@ -183,7 +183,7 @@ impl Logic for ChangeEnds {
             if self.is_beyond.val() {
                 self.finding.next.outcome = 8.into();
             }
-            if self.is_delete.val() {
+            if self.hole_runs.val() {
                 self.finding.next.outcome = 6.into();
             }
         }

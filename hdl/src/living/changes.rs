@@ -1,5 +1,5 @@
-//! The changes of a mesh that stands: runs of `InsertAs`, `Delete` and `Move`, and all points of an `Insert` that comes after
-//! one.
+//! The changes of a mesh that stands: runs of `InsertAs`, `Delete` and `Move`, and all points of an `Insert` that comes
+//! after one.
 //!
 //! ```text
 //! RunPort ----> VertexCheck --+--> ItemQueues -> launches: a context of the insertion engine starts
@@ -79,7 +79,7 @@ pub struct Changes {
     step: ChangeEnds,
     late: LatePoints,
     changed: DFF<Bit>,
-    finds: Signal<Local, Bit>,
+    hole_runs: Signal<Local, Bit>,
     item: Signal<Local, Item>,
     dealt_item: Signal<Local, Item>,
 }
@@ -101,7 +101,7 @@ impl Logic for Changes {
         self.late.reset.next = self.reset.val();
         self.check.clears.next = self.clears.val();
         self.late.clears.next = self.clears.val();
-        self.finds.next = self.is_active.val() & (self.is_delete.val() | self.is_move.val());
+        self.hole_runs.next = self.is_active.val() & (self.is_delete.val() | self.is_move.val());
         self.runs.next = self.is_active.val() & self.is_change.val();
         self.has_changed.next = self.changed.q.val();
         self.item.next = self.launch.val().item;
@@ -114,12 +114,12 @@ impl Logic for Changes {
         self.check.vertex.next = self.vertex.val();
         self.check.accepted.next = self.accepted.val() & self.is_active.val();
         self.check.is_noted.next = self.step.is_noted.val();
-        self.check.is_delete.next = self.finds.val();
+        self.check.hole_runs.next = self.hole_runs.val();
         self.check.fetches.next = self.fetches.val();
         self.check.fetched.next = self.fetched.val();
         self.wanted.next = self.check.wanted.val();
         self.check.marks.next =
-            (self.launches.val() & (!self.finds.val())) | self.events.val().takes | self.step.remarks.val();
+            (self.launches.val() & (!self.hole_runs.val())) | self.events.val().takes | self.step.remarks.val();
         self.check.disowns.next = !(self.is_active.val() & self.is_change.val());
         self.check.marked.next = self.events.val().taken;
         if self.launches.val() {
@@ -144,7 +144,7 @@ impl Logic for Changes {
             self.queued.next = self.check.offered.val();
         }
 
-        self.step.is_delete.next = self.finds.val();
+        self.step.hole_runs.next = self.hole_runs.val();
         self.step.is_move.next = self.is_active.val() & self.is_move.val();
         self.step.runs.next = self.is_active.val() & self.is_change.val();
         self.step.events.next = self.events.val();

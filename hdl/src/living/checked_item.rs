@@ -19,7 +19,7 @@ pub struct CheckedItem {
     /// The item as it was dealt, whether it is one of a change, and of a deletion or move, and its vertex.
     pub dealt: Signal<In, DealtItem>,
     pub is_change: Signal<In, Bit>,
-    pub is_delete: Signal<In, Bit>,
+    pub hole_runs: Signal<In, Bit>,
     pub vertex: Signal<In, VertexId>,
     /// The bits and the point of the vertex are asked for at this edge, and come two clocks later.
     pub asks: Signal<In, Bit>,
@@ -64,7 +64,7 @@ impl Logic for CheckedItem {
             self.built.next.vertex = self.vertex.val();
             self.built.next.owns = self.kept_owns.q.val();
         }
-        if self.is_delete.val() {
+        if self.hole_runs.val() {
             self.built.next.place = self.kept_place.q.val();
         }
         self.offered.next.context = self.dealt.val().context;

@@ -3,7 +3,8 @@
 //! The words of a run come in, and the words of its answer go out. Each question is a walk through the visit pipeline
 //! of the insertion engine, which inserts nothing meanwhile. Behind the walk, a `Nearest` goes round vertices. Each
 //! `InsertAs` is an insertion of that engine, and each `Delete` begins there and ends in the blocks of
-//! [`engine::holes`](crate::engine::holes). A `Move` is a `Delete` that writes a point, or goes on as an `InsertAs`. [`Questions`] and [`Changes`] draw their blocks.
+//! [`engine::holes`](crate::engine::holes). A `Move` is a `Delete` that writes a point, or goes on as an `InsertAs`.
+//! [`Questions`] and [`Changes`] draw their blocks.
 
 mod change_ends;
 mod changes;

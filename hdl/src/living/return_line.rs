@@ -1,8 +1,8 @@
-//! The vertices of a run of `Move` that are out of the mesh and go back into it: a line of contexts, each with the rest of
-//! its item.
+//! The vertices of a run of `Move` that are out of the mesh and go back into it: a line of contexts, each with the rest
+//! of its item.
 //!
-//! 1. A context joins the line in the clock after the last write of its deletion (`puts_out`). It has one item at a time,
-//!    so the line is never full.
+//! 1. A context joins the line in the clock after the last write of its deletion (`puts_out`). It has one item at a
+//!    time, so the line is never full.
 //! 2. The item of a context in the line has the new place of its vertex as its place, and ids are kept for it: the two
 //!    that its deletion has left.
 //!

@@ -9,8 +9,8 @@
 //! 5. `command_ready` depends on registers only and does not wait for `command_valid`.
 //!
 //! Latency: 2 clocks from the number of items to `head`. An item is dealt in the clock after it was taken, so an item
-//! can be taken every second clock. An `InsertAs` or a `Move` needs at least 7 clocks an item: for its two words, and for the look
-//! at its vertex.
+//! can be taken every second clock. An `InsertAs` or a `Move` needs at least 7 clocks an item: for its two words, and
+//! for the look at its vertex.
 //!
 //! A run of two items, of which the first has to wait a clock:
 //! ```text
@@ -68,8 +68,8 @@ pub struct RunPort {
     /// The item on offer to the contexts, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
     pub taken: Signal<In, Bit>,
-    /// The run under way, or the last one, is an `InsertAs`, a `Delete` or a `Move`, and which; the vertex of the item on
-    /// offer.
+    /// The run under way, or the last one, is an `InsertAs`, a `Delete` or a `Move`, and which; the vertex of the item
+    /// on offer.
     pub is_change: Signal<Out, Bit>,
     pub is_delete: Signal<Out, Bit>,
     pub is_move: Signal<Out, Bit>,

@@ -1,5 +1,5 @@
-//! Looks whether the vertex of an item can be inserted, deleted or moved, before the item goes to its context: a bit for each
-//! vertex says whether the vertex is in use, and another whether ids are kept for it.
+//! Looks whether the vertex of an item can be inserted, deleted or moved, before the item goes to its context: a bit
+//! for each vertex says whether the vertex is in use, and another whether ids are kept for it.
 //!
 //! 1. A vertex at or beyond the capacity is refused with the outcome `Full`, and one in use with `InUse`. Every other
 //!    vertex is in use from then on, so a second item of the run with the same vertex is refused.
@@ -58,7 +58,7 @@ pub struct VertexCheck {
     pub dealt: Signal<In, DealtItem>,
     pub is_change: Signal<In, Bit>,
     /// The items delete or move their vertices.
-    pub is_delete: Signal<In, Bit>,
+    pub hole_runs: Signal<In, Bit>,
     pub vertex: Signal<In, Word>,
     pub taken: Signal<Out, Bit>,
     /// The item on offer to its context, and whether it is taken at this edge.
@@ -119,7 +119,7 @@ impl Logic for VertexCheck {
         self.item.drops.next = self.reset.val() | self.clears.val();
         self.item.dealt.next = self.dealt.val();
         self.item.is_change.next = self.is_change.val();
-        self.item.is_delete.next = self.is_delete.val();
+        self.item.hole_runs.next = self.hole_runs.val();
         self.item.vertex.next = self.asked.val();
         self.item.asks.next = false;
         self.item.bit_in_use.next = self.bits.is_used.val();
@@ -141,11 +141,11 @@ impl Logic for VertexCheck {
         self.bits.asked.next = self.asked.val();
         self.bits.written.next = self.asked.val();
         self.bits.writes.next = false;
-        self.bits.used.next = !self.is_delete.val();
-        self.bits.writes_ids.next = self.is_delete.val();
-        self.bits.owns.next = self.is_delete.val();
+        self.bits.used.next = !self.hole_runs.val();
+        self.bits.writes_ids.next = self.hole_runs.val();
+        self.bits.owns.next = self.hole_runs.val();
         self.is_refused.next = self.is_high.val() | (self.item.is_used.val() & (!self.is_unknown.val()));
-        if self.is_delete.val() {
+        if self.hole_runs.val() {
             self.is_refused.next = self.is_high.val() | self.is_unknown.val() | (!self.item.is_used.val());
         }
         if self.known.q.val() < self.arrived.val() {

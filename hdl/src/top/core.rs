@@ -125,10 +125,10 @@ impl Core {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_questions(config: Config) -> Result<Self, ConfigError> {
+    pub fn with_runs(config: Config) -> Result<Self, ConfigError> {
         Ok(Self {
-            engine: InsertionEngine::with_questions(config.check()?),
-            command_port: CommandPort::with_questions(),
+            engine: InsertionEngine::with_runs(config.check()?),
+            command_port: CommandPort::with_runs(),
             answer_words: AnswerWords::with_features(),
             features: vec![Signal::default()],
             question_runs: vec![Signal::default()],

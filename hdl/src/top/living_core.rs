@@ -15,7 +15,7 @@ use crate::engine::{Completion, Write};
 use crate::living::types::Standing;
 use crate::living::{Questions, RunGate};
 use crate::prelude::*;
-use incircle_protocol::{Config, ConfigError, CORE_RUNS, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAX_DELETE_RING};
+use incircle_protocol::{Config, ConfigError, CORE_RUNS, FEATURES_SHIFT, FEATURE_SHORT_IDS, MAX_DELETE_RING, MIN_RING};
 
 #[derive(LogicBlock, Default)]
 pub struct LivingCore {
@@ -51,14 +51,14 @@ impl LivingCore {
     /// If a parameter is out of range, there are several engines, or the boundary list is too long for deletions; the
     /// error says what is possible.
     pub fn new(config: Config) -> Result<Self, ConfigError> {
+        if !(MIN_RING..=MAX_DELETE_RING).contains(&config.ring) {
+            return Err(ConfigError::RingForDeletions(config.ring));
+        }
         let config = config.check()?;
         if config.engines != 1 {
             return Err(ConfigError::EnginesForQuestions(config.engines));
         }
-        if config.ring > MAX_DELETE_RING {
-            return Err(ConfigError::RingForDeletions(config.ring));
-        }
-        Ok(Self { core: Core::with_questions(config)?, questions: Questions::new(config), ..Self::default() })
+        Ok(Self { core: Core::with_runs(config)?, questions: Questions::new(config), ..Self::default() })
     }
 }
 

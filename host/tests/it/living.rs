@@ -195,7 +195,7 @@ fn core(number: usize) -> (Device, u32) {
 
 /// A core of this configuration that does runs clock by clock as the hardware does.
 fn core_with_runs(config: Config) -> ClockTransport {
-    ClockTransport::around(ChipModel::new(config).expect("a core").with_questions(), config)
+    ClockTransport::around(ChipModel::new(config).expect("a core").with_core_runs(), config)
 }
 
 /// The model of the hardware clock by clock for the script of this number, and its capacity.
@@ -294,15 +294,16 @@ fn hiding(number: usize, hidden: &[RunKind]) -> (Device, u32) {
     let (points, contexts) = ([64, 16, 8, 256][number % 4], [16, 4, 1, 16, 7][number % 5]);
     let config = Config { name: "test", points, ring: [32, 6, 12][number % 3], contexts, engines: 1 };
     let hidden = hidden.iter().fold(0, |hidden, kind| hidden | kind.feature());
-    let transport = Counted { inner: core_with_runs(config), hidden, seen: Rc::default() };
+    let transport = Counted { inner: core_with_runs(config), hidden, seen: Rc::default(), moves: Rc::default() };
     (Device::from_transport(Box::new(transport)), points)
 }
 
-/// A transport that counts the commands `Clear` and `InsertAs`, and hides some features of its device.
+/// A transport that counts the commands `Clear` and `InsertAs`, and `Move`, and hides some features of its device.
 struct Counted {
     inner: ClockTransport,
     hidden: u32,
     seen: Rc<Cell<[usize; 2]>>,
+    moves: Rc<Cell<usize>>,
 }
 
 impl Transport for Counted {
@@ -314,6 +315,7 @@ impl Transport for Counted {
         let count = |opcode| commands.iter().filter(|command| command.opcode() == opcode).count();
         let [clears, runs] = self.seen.get();
         self.seen.set([clears + count(Opcode::Clear), runs + count(Opcode::InsertAs)]);
+        self.moves.set(self.moves.get() + count(Opcode::Move));
         self.inner.submit(commands, deadline)
     }
 
@@ -337,7 +339,7 @@ impl Transport for Counted {
 fn a_core_without_moves_makes_the_mesh_anew_once_for_many_changes() {
     let seen = Rc::new(Cell::new([0; 2]));
     let hidden = RunKind::Move.feature();
-    let transport = Counted { inner: core_with_runs(SMALL), hidden, seen: Rc::clone(&seen) };
+    let transport = Counted { inner: core_with_runs(SMALL), hidden, seen: Rc::clone(&seen), moves: Rc::default() };
     let mut device = Device::from_transport(Box::new(transport));
     let mut session = device.session().expect("a session");
     assert!(session.keeps_living_meshes());
@@ -376,6 +378,30 @@ fn a_core_without_moves_makes_the_mesh_anew_once_for_many_changes() {
     on_host.move_all(&[(42, Point::new(9, 9)), (43, Point::new(31, 32))]).expect("moves");
     assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
     assert_eq!(seen.get(), [3, 2]);
+}
+
+/// Points that stay where they are do not part a run of moves.
+#[test]
+fn moves_to_their_own_places_stay_in_one_run() {
+    let moves = Rc::new(Cell::new(0));
+    let inner = core_with_runs(SMALL);
+    let transport = Counted { inner, hidden: 0, seen: Rc::default(), moves: Rc::clone(&moves) };
+    let mut device = Device::from_transport(Box::new(transport));
+    let mut session = device.session().expect("a session");
+    let mut mesh = session.living().expect("the core has runs");
+    let points: Vec<Point> = (0..60).map(|k| Point::new(10 * (k % 8), 9 * (k / 8))).collect();
+    mesh.insert_all(&points).expect("room");
+    let mut host = Triangulation::from(points.iter().copied()).expect("a triangulation");
+    // Every third point stays.
+    let to = |(index, &Point { x, y }): (usize, &Point)| (index as u32, Point::new(x + u32::from(index % 3 > 0), y));
+    let all: Vec<(u32, Point)> = points.iter().enumerate().map(to).collect();
+    mesh.move_all(&all).expect("moves");
+    LivingMesh::move_all(&mut host, &all).expect("moves");
+    assert_eq!(moves.get(), 1);
+    assert_eq!(mesh.mesh().expect("a mesh"), host.mesh());
+    // A move to a place off the grid is refused, also beside points that stay.
+    let error = mesh.move_all(&[(0, points[0]), (1, Point::new(1 << 16, 0))]).expect_err("off the grid");
+    assert!(matches!(error, Error::OffGrid { .. }), "{error}");
 }
 
 /// The hub of a wheel has more neighbours than the list of the device. The caller does not see that.

@@ -72,9 +72,9 @@ impl ChipModel {
     /// The same chip with runs as the hardware does them, clock by clock, if it is a single engine. Its identity offers
     /// these.
     #[must_use]
-    pub fn with_questions(mut self) -> Self {
+    pub fn with_core_runs(mut self) -> Self {
         if let [only] = &mut self.engines[..] {
-            *only = only.clone().with_questions();
+            *only = only.clone().with_core_runs();
         }
         self
     }

@@ -133,7 +133,7 @@ impl CommandModel {
     /// The same model with the runs that a core with runs has. Its identity offers them one by one, as that of a core
     /// does.
     #[must_use]
-    pub fn with_questions(mut self) -> Self {
+    pub fn with_core_runs(mut self) -> Self {
         self.identity.features |= protocol::CORE_RUNS;
         self
     }

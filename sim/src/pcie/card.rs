@@ -50,8 +50,8 @@ pub struct CardFigures {
 /// A card behind its driver.
 pub struct Card {
     inside: Mutex<Inside>,
-    /// Number of calls that wait for the mutex. It is not fair: a call that lets go of it and takes it again at once would
-    /// leave them outside.
+    /// Number of calls that wait for the mutex or for progress. The mutex is not fair: a call that lets go of it and
+    /// takes it again at once would leave them outside.
     waiting: AtomicUsize,
     changed: Condvar,
     timeout: Duration,
@@ -268,7 +268,9 @@ impl Card {
                 inside = self.lock();
             } else {
                 let nap = if left.is_zero() { NAP } else { left.min(NAP) };
+                self.waiting.fetch_add(1, Ordering::Relaxed);
                 inside = self.changed.wait_timeout(inside, nap).unwrap_or_else(PoisonError::into_inner).0;
+                self.waiting.fetch_sub(1, Ordering::Relaxed);
             }
         }
     }
@@ -332,5 +334,75 @@ impl Card {
     /// The figures so far.
     pub fn figures(&self) -> CardFigures {
         self.lock().figures
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicBool;
+    use std::sync::Arc;
+
+    use incircle_model::stream::{BusError, Given};
+
+    use super::*;
+
+    /// A device that is always at work and never has an answer. It counts the slices of its time.
+    struct Busy {
+        slices: Arc<AtomicUsize>,
+    }
+
+    impl Beats for Busy {
+        fn take(&mut self, bytes: &[u8]) -> usize {
+            bytes.len()
+        }
+
+        fn give(&mut self, _: &mut [u8]) -> Given {
+            Given::default()
+        }
+
+        fn read(&mut self, _: u32) -> Result<u32, BusError> {
+            Ok(7)
+        }
+
+        fn write(&mut self, _: u32, _: u32) -> Result<(), BusError> {
+            Ok(())
+        }
+
+        fn beat_bytes(&self) -> usize {
+            8
+        }
+
+        fn run(&mut self) -> bool {
+            self.slices.fetch_add(1, Ordering::Relaxed);
+            std::thread::sleep(Duration::from_millis(1));
+            true
+        }
+    }
+
+    /// Between two accesses to a register a transfer that is under way may get a few slices, and not thousands.
+    #[test]
+    fn a_transfer_leaves_the_card_to_registers() {
+        let slices = Arc::new(AtomicUsize::new(0));
+        let device = Busy { slices: Arc::clone(&slices) };
+        let card = Arc::new(Card::new(Box::new(device), &CardFaultSpec::default()));
+        let has_begun = Arc::new(AtomicBool::new(false));
+        let reader = {
+            let (card, has_begun) = (Arc::clone(&card), Arc::clone(&has_begun));
+            std::thread::spawn(move || {
+                has_begun.store(true, Ordering::Relaxed);
+                card.read(&mut [0; 8])
+            })
+        };
+        while !has_begun.load(Ordering::Relaxed) || slices.load(Ordering::Relaxed) == 0 {
+            std::thread::yield_now();
+        }
+        let before = slices.load(Ordering::Relaxed);
+        for _ in 0..100 {
+            assert_eq!(card.read_register(0), Ok(7));
+        }
+        let between = slices.load(Ordering::Relaxed) - before;
+        card.close();
+        assert_eq!(reader.join().expect("the reader ends"), Err(Errno::NO_DEVICE));
+        assert!(between < 2_000, "{between} slices passed during 100 accesses");
     }
 }

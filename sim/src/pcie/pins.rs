@@ -101,7 +101,8 @@ impl PinCard {
     /// A card with the core with runs of this configuration and beats of `beat_bits` bits, after its reset.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// [`SimError::NoRuns`]: such cards were not translated when this crate was built, or the card does not come out of
+    /// its reset.
     pub fn living(config: Config, beat_bits: u32) -> Result<Self, SimError> {
         Self::of(LIVING, config, beat_bits)
     }
@@ -111,8 +112,11 @@ impl PinCard {
         let name = format!("{prefix}{}_{beat_bits}", config.name);
         let missing = || {
             let built = models::NAMES.iter().filter_map(|name| name.strip_prefix(prefix)).collect::<Vec<_>>();
-            let runs = if prefix == LIVING { " with runs" } else { "" };
-            SimError::NoCard { name: format!("{}_{beat_bits}{runs}", config.name), built: built.join(", ") }
+            let built = built.join(", ");
+            if prefix == LIVING {
+                return SimError::NoRuns { name: config.name, built: built.replace('_', " with beats of ") + " bits" };
+            }
+            SimError::NoCard { name: format!("{}_{beat_bits}", config.name), built }
         };
         let model = Model::new(models::find(&name).ok_or_else(missing)?);
         let ports = Ports::of(&model)?;

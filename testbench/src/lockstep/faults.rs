@@ -320,7 +320,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "duplicate_stays_in_use",
         pieces: &[piece(
             "unmarks = @;",
-            "((events[(64'h1)+:(1)] & (~is_delete)) | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))) & (~is_move)",
+            "((events[(64'h1)+:(1)] & (~hole_runs)) | (events[(64'h27)+:(1)] & (~events[(64'h28)+:(1)]))) & (~is_move)",
             "1'b0",
         )],
     },

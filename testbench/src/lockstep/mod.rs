@@ -112,8 +112,8 @@ impl Lockstep {
 
     /// Gives the model the questions that the core beside it has.
     #[must_use]
-    pub fn with_questions(mut self) -> Self {
-        self.model = self.model.with_questions();
+    pub fn with_core_runs(mut self) -> Self {
+        self.model = self.model.with_core_runs();
         self
     }
 

@@ -53,8 +53,8 @@ pub struct Commit {
     pub committed: Signal<Out, Committed>,
     /// A ring is being written.
     pub is_at_work: Signal<Out, Bit>,
-    /// In a core with deletions: the first entry of a ring is taken at this edge; and the write port is taken at the next
-    /// edge, so that the commit waits (`holds`).
+    /// In a core with deletions: the first entry of a ring is taken at this edge; and the write port is taken at the
+    /// next edge, so that the commit waits (`holds`).
     pub loads: Vec<Signal<Out, Bit>>,
     pub holds: Vec<Signal<In, Bit>>,
     ring: DFF<CommitJob>,

@@ -49,10 +49,10 @@ pub struct CommitPath {
     pub released: Signal<Out, Released>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// In a core with deletions: a deletion requests a write in the next clock, so that a commit waits (`holds`), and
-    /// never both; a context that starts, and whether ids are kept for its vertex; ids that a vertex
-    /// keeps; the last write of a deletion is requested; a solo insertion starts or is at work, and its two ids; ids
-    /// that were kept are in use again.
+    /// In a core with deletions: a hole requests a write in the next clock, so a commit requests none (`holds`); a
+    /// context that starts, and whether ids are kept for its vertex; ids that a vertex keeps; the last write of a
+    /// deletion is requested; a solo insertion starts or is at work, and its two ids; ids that were kept are in use
+    /// again.
     pub holds: Vec<Signal<In, Bit>>,
     pub start: Vec<Signal<In, Start>>,
     pub owns: Vec<Signal<In, Bit>>,

@@ -1,7 +1,8 @@
 //! Collects the events that end the items of a run of changes, and says whether an item can begin.
 //!
 //! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context starts, no
-//!    context asks for a solo insertion or is at one, and no point must be written. So the queue of visits takes one bundle a clock.
+//!    context asks for a solo insertion or is at one, and no point must be written. So the queue of visits takes one
+//!    bundle a clock.
 //!
 //! Latency: none, the block is combinational.
 
@@ -24,8 +25,8 @@ pub struct ChangeView {
     pub contexts: Signal<In, ContextState>,
     /// A context that starts without an item, or with an item that it tries again.
     pub start: Signal<In, Start>,
-    /// The visit that completes is one of a deletion, or of a move whose vertex is in the mesh; it ends a move in place;
-    /// and a run of moves is under way.
+    /// The visit that completes is one of a deletion, or of a move whose vertex is in the mesh; it ends a move in
+    /// place; and a run of moves is under way.
     pub finds: Signal<In, Bit>,
     pub moved: Signal<In, Arrival>,
     pub moving: Signal<In, Moving>,

@@ -1,7 +1,7 @@
 //! Joins the effects of visits of deletions with those of the attempts.
 //!
 //! 1. A test that the fill asks for enters the queue if no completed visit may ask for visits and no context starts.
-//! 2. An item ends with its hole if the completed visit neither ends an attempt nor an item at the same edge.
+//! 2. An item ends with its hole if the completed visit ends neither an attempt nor an item at the same edge.
 //!
 //! Latency: none, the block is combinational.
 

@@ -1,5 +1,5 @@
-//! The deletions of a run, and the moves up to the insertion of a vertex that has been put out of the mesh: from the root
-//! of a star to the mark of the last free record, or to the point that a move in place writes.
+//! The deletions of a run, and the moves up to the insertion of a vertex that has been put out of the mesh: from the
+//! root of a star to the mark of the last free record, or to the point that a move in place writes.
 //!
 //! ```text
 //! completed visits -> MovedVertex, StarCase, NamedVertex, KeptEdges
@@ -18,14 +18,15 @@
 //!                             |
 //!                             +-> records, links, marks, ids that a vertex keeps
 //! ```
-//! 1. In a run of deletions all visits that turn their record are this block's (`finds`), and in a run of moves those of
-//!    a context whose vertex is in the mesh. Walks and roots are those of the attempts, which take a record that names
-//!    the vertex for one that conflicts.
+//! 1. In a run of deletions all visits that turn their record are this block's (`finds`), and in a run of moves those
+//!    of a context whose vertex is in the mesh. Walks and roots are those of the attempts, which take a record that
+//!    names the vertex for one that conflicts.
 //! 2. An attempt that fails releases its locks: it has met a foreign lock (M4), or its ring is too long for the list,
 //!    and then its item ends (`outcome.duplicate`).
 //! 3. The item of a hole that is full ends when its last triangle is on its way; the locks are due at the last write
 //!    (M6).
-//! 4. A move in place ends its item when its last edge has been tested, and writes its point at that edge (M12).
+//! 4. A move in place ends its item when the test of its last edge completes, and gives its point to `LatePoint` then
+//!    (M12).
 //!
 //! Latency: none (combinational) from a completed visit to `follow`, `outcome`, `lock` and `releases`.
 
@@ -75,8 +76,8 @@ pub struct Holes {
     /// The record of the completed visit names the vertex of its context; or is free.
     pub names: Signal<Out, Bit>,
     pub is_free: Signal<Out, Bit>,
-    /// The visit that completes in the next clock is one of a deletion (`early_finds`), and the one that completes in
-    /// this clock.
+    /// Whether the visit that completes in the next clock belongs to a deletion, or to a move whose vertex is in the
+    /// mesh (`early_finds`); and the same of the visit that completes in this clock (`finds`).
     pub early_finds: Signal<Out, Bit>,
     pub finds: Signal<Out, Bit>,
     /// The completed visit is this block's, or a root that opens a star (`opens_star`).
@@ -99,7 +100,7 @@ pub struct Holes {
     pub writes_next: Signal<Out, Bit>,
     pub erased: Signal<Out, Committed>,
     pub kept: Signal<Out, KeptWrite>,
-    /// A run of deletions or moves is under way. The point that a move in place writes, if one ends; and the vertices that
+    /// A run of deletions or moves is under way. The point of a move in place, if one ends; and the vertices that
     /// chains carry.
     pub runs: Signal<Out, Bit>,
     pub moved: Signal<Out, Arrival>,

@@ -1,10 +1,11 @@
-//! Whether a vertex that moves keeps its edges, as far as the completed visit can tell (M12), which is judged by the new
-//! place ([`MovedStar`](crate::engine::MovedStar)); and the vertices that the chains round its star carry.
+//! Whether a vertex that moves keeps its edges, as far as the completed visit can tell (M12), which is judged by the
+//! new place ([`MovedStar`](crate::engine::MovedStar)); and the vertices that the chains round its star carry.
 //!
 //! 1. At the root, the triangle must turn left. So must a record of the star, and the edge to the record before must
 //!    stay. A record outside must not conflict with the new place.
-//! 2. An edge of the star has two neighbours in the ring. With its own end they turn left, and their circle leaves the
-//!    new place out, if and only if the edge goes. The last edge is tested by itself.
+//! 2. An edge of the star ends at a vertex of the ring. It is lost if and only if that vertex and its two neighbours in
+//!    the ring turn left and their circle leaves the new place out. The edge at which the chains meet has a visit of
+//!    its own.
 //! 3. The carried vertex of a chain is the corner that the next record does not have: `v2` of the record to the left,
 //!    `v1` of the one to the right.
 //!

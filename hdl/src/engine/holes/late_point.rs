@@ -1,12 +1,13 @@
 //! The point of a move in place, which waits for a clock in which no visit fetches a fourth point: both use one port of
 //! the vertex memory, and a visit that meets the write is made again (M14).
 //!
-//! 1. A point waits 4 clocks at most. In the clock of its last chance it is written whatever is fetched, and no item may
-//!    begin (`is_last_chance`), because its point could need the port.
+//! 1. A point waits 4 clocks at most. An item that begins may take the port first (`is_taken`). In the clock of its
+//!    last chance the point is written whatever is fetched, and no item may begin (`is_last_chance`).
 //! 2. It is also written when the next point comes, so one place is enough. A clock in which one comes has no item that
 //!    begins.
-//! 3. The write comes at most 5 clocks after the attempt has ended. Its first lock is cleared 5 clocks after that end,
-//!    and who takes that lock reads points 2 clocks later: all of them read the new point.
+//! 3. The write comes 5 clocks after the end of the attempt at the latest. The first lock of the attempt is cleared 5
+//!    clocks after that end at the earliest, and who takes it then reads points 2 clocks later. So all of them read the
+//!    new point.
 //!
 //! Latency: a point is written 1 to 5 clocks after it has come.
 

@@ -1,9 +1,9 @@
 //! The moves of the contexts: whether the visits of a context look for its vertex and go round the star, or insert it;
-//! and the point that a move in place writes.
+//! and the point that a move in place gives to `LatePoint`.
 //!
-//! 1. In a run of deletions all visits are those of a deletion (`finds`). In a run of moves they are until the vertex is
-//!    out of the mesh. Then the context starts again with an item that `returns`.
-//! 2. A move in place writes the point of its vertex at the edge at which its last visit completes.
+//! 1. In a run of deletions all visits are those of a deletion (`finds`). In a run of moves they are until the vertex
+//!    is out of the mesh. Then the context starts again with an item that `returns`.
+//! 2. When the last visit of a move in place completes, the point of its vertex is given (`arrival`).
 //!
 //! Latency: none from `early` to `early_finds`, 1 clock to all others.
 
@@ -21,7 +21,8 @@ pub struct MovedVertex {
     pub deletes: Signal<In, Bit>,
     pub moving: Signal<In, Moving>,
     pub start: Signal<In, Start>,
-    /// The visit that completes in the next clock, and whether it is one of a deletion.
+    /// The visit that completes in the next clock, and whether it belongs to a deletion or to a move whose vertex is in
+    /// the mesh.
     pub early: Signal<In, Upcoming>,
     pub early_finds: Signal<Out, Bit>,
     /// Of the visit that completes in this clock: the same; it is also one of a move; the vertex has its new place
@@ -29,7 +30,7 @@ pub struct MovedVertex {
     pub finds: Signal<Out, Bit>,
     pub moves: Signal<Out, Bit>,
     pub stays: Signal<Out, Bit>,
-    /// The visit ends a move in place, and the point that is then written.
+    /// The visit ends a move in place, and the point that is then given.
     pub ends_in_place: Signal<In, Bit>,
     pub arrival: Signal<Out, Arrival>,
     items: LutMemory<CONTEXT_BITS, MOVED_ITEM_BITS>,

@@ -1,5 +1,5 @@
-//! The meaning of a completed visit of a deletion, or of a move whose vertex is in the mesh, as far as its star does not
-//! decide.
+//! The meaning of a completed visit of a deletion, or of a move whose vertex is in the mesh, as far as its star does
+//! not decide.
 //!
 //! 1. Visits of a star and those outside turn their record and lock it. A visit outside has place 0 or the mark 32 in
 //!    `after`. A visit that turns its record and does not lock is a test of a hole, or with the mark 64 in

@@ -3,8 +3,8 @@
 //! 1. The root asks for the next record to the left, the record outside, and the next record to the right, with the
 //!    places 1, 0 and -1. A record of the star asks for the next one of its chain, with its own place as `after`, and
 //!    for the record outside, with the mark 32.
-//! 2. The test of the last edge of a star that moves has the ends of the two ring edges that meet there: the last place,
-//!    the first one and the place after that. It has the mark 64 in `cavity_record`.
+//! 2. The test of the last edge of a star that moves has the ends of the two ring edges that meet there: the last
+//!    place, the first one and the place after that. It has the mark 64 in `cavity_record`.
 //! 3. By default the bundle is the same visit again.
 //!
 //! Latency: none, the block is combinational.

@@ -126,8 +126,8 @@ crate::packed! {
         pub locks: LockCount,
     }
 
-    /// The item of a move that begins, while a run of them is under way (`runs`): its vertex goes back into the mesh; or
-    /// has its new place already; and that place.
+    /// The item of a move that begins, while a run of them is under way (`runs`): its vertex goes back into the mesh;
+    /// or has its new place already; and that place.
     pub struct Moving {
         pub runs: bool,
         pub returns: bool,

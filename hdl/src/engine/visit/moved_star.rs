@@ -1,6 +1,6 @@
-//! Judges the star of a vertex that moves by the new place: visits that lock are judged by the place to which the item
-//! of their context moves its vertex, and in a record of the star the vertex gives way to the one opposite the record
-//! before. So the circle of a visit tells whether the edge between the two records stays (M12).
+//! Judges the star of a vertex that moves by its new place: that place is the point of each visit that locks. In a
+//! record of the star, the vertex opposite the record before stands in for the one that moves, so the circle says
+//! whether the edge between the two records stays (M12).
 //!
 //! 1. Until the vertex of a context is out of the mesh, the visits that turn and lock their record are those of its
 //!    star. A visit outside, with place 0 or the mark 32 in `after`, keeps its corners.

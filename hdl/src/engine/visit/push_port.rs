@@ -45,7 +45,7 @@ pub struct PushPort {
 
 impl PushPort {
     /// The port of a core that answers questions.
-    pub fn with_questions() -> Self {
+    pub fn with_runs() -> Self {
         Self { question_asks: vec![Signal::default()], question: vec![Signal::default()], ..Self::default() }
     }
 }

@@ -13,7 +13,7 @@ use crate::prelude::*;
 pub struct TestCorners {
     pub clock: Signal<In, Clock>,
     /// A run of deletions or moves is under way, and no solo insertion.
-    pub deletes: Signal<In, Bit>,
+    pub hole_runs: Signal<In, Bit>,
     /// The visit whose record comes in this clock, if there is one (`valid`), and the vertices of its test.
     pub valid: Signal<In, Bit>,
     pub visit: Signal<In, Visit>,
@@ -39,7 +39,7 @@ impl Logic for TestCorners {
     fn update(&mut self) {
         dff_setup!(self, clock, test1, test2);
         self.is_test.next =
-            self.deletes.val() & self.valid.val() & self.visit.val().rotates & (!self.visit.val().locks);
+            self.hole_runs.val() & self.valid.val() & self.visit.val().rotates & (!self.visit.val().locks);
         self.fetches.next = self.is_test.val();
         self.fetch_id.next = self.vertices.val().challenger;
         self.test1.d.next = self.is_test.val();

@@ -65,10 +65,10 @@ pub struct VisitPipeline {
     /// the search for the nearest vertex: in a core that answers questions.
     pub sides: Vec<Signal<Out, Sides>>,
     pub nearest: Vec<Signal<Out, NearVerdict>>,
-    /// In such a core: a run of deletions or moves is under way; the visit that reads its record, and two clocks later the
-    /// vertices of its test if it is one. The vertex memory is asked for a point of a test (`fetches`). Whether the
+    /// In such a core: a run of deletions or moves is under way; the visit that reads its record, and two clocks later
+    /// the vertices of its test if it is one. The vertex memory is asked for a point of a test (`fetches`). Whether the
     /// three corners of the visit that completes turn left.
-    pub deletes: Vec<Signal<In, Bit>>,
+    pub hole_runs: Vec<Signal<In, Bit>>,
     pub issued: Vec<Signal<Out, Visit>>,
     pub test_vertices: Vec<Signal<In, TestVertices>>,
     pub fetches: Vec<Signal<Out, Bit>>,
@@ -170,7 +170,7 @@ impl VisitPipeline {
             moving: vec![Signal::default()],
             start: vec![Signal::default()],
             carried: vec![Signal::default()],
-            deletes: vec![Signal::default()],
+            hole_runs: vec![Signal::default()],
             issued: vec![Signal::default()],
             test_vertices: vec![Signal::default()],
             fetches: vec![Signal::default()],
@@ -269,7 +269,7 @@ impl Logic for VisitPipeline {
 
             // A test of a hole has four vertices in the place of a record.
             self.test[i].clock.next = self.clock.val();
-            self.test[i].deletes.next = self.deletes[i].val();
+            self.test[i].hole_runs.next = self.hole_runs[i].val();
             self.test[i].valid.next = self.valid.q.val().get_bit(1);
             self.test[i].visit.next = self.reader.visit_at_record.val();
             self.test[i].record.next = self.triangles.record.val();

@@ -21,8 +21,8 @@ fn bad_parameters_are_refused_with_their_numbers() {
 }
 
 #[test]
-fn a_core_with_questions_has_one_engine() {
-    let refused = |engines| export::core_with_questions(Config { engines, ..SMALL }, false).unwrap_err();
+fn a_core_with_runs_has_one_engine() {
+    let refused = |engines| export::core_with_runs(Config { engines, ..SMALL }, false).unwrap_err();
     for engines in [2, 4] {
         let error = refused(engines);
         assert!(matches!(error, ExportError::Config(ConfigError::EnginesForQuestions(given)) if given == engines));
@@ -35,11 +35,13 @@ fn a_core_with_questions_has_one_engine() {
 
 #[test]
 fn a_core_with_deletions_has_a_short_boundary_list() {
-    let error = export::core_with_questions(Config { ring: 33, ..SMALL }, false).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "a core with deletions cannot have a boundary list of 33 edges: choose a number from 3 to 32"
-    );
+    for ring in [2, 33, 65] {
+        let error = export::core_with_runs(Config { ring, ..SMALL }, false).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!("a core with deletions cannot have a boundary list of {ring} edges: choose a number from 3 to 32")
+        );
+    }
 }
 
 #[test]

@@ -28,7 +28,7 @@ impl Core {
     /// The model of the living engine, or that of the blocks that the hardware has.
     pub(super) fn new(config: Config, is_hardware: bool) -> Result<Self, Failure> {
         let model = ClockModel::new(config).map_err(|refusal| Failure::from(refusal.to_string()))?;
-        let model = if is_hardware { model.with_questions() } else { model.with_runs() };
+        let model = if is_hardware { model.with_core_runs() } else { model.with_runs() };
         let clocks_alone = is_hardware.then(RunCounts::default);
         Ok(Self { model, layout: Layout::of(16, config.points), clocks_alone })
     }

@@ -9,13 +9,16 @@ pub struct TracksArguments {
     #[arg(short, value_name = "N", default_value_t = 4000, value_parser = clap::value_parser!(u32).range(16..=8000))]
     pub n: u32,
     /// Frames
-    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     pub frames: u32,
     /// Places whose triangles are asked for in each frame
     #[arg(long, value_name = "N", default_value_t = 2000)]
+    #[arg(value_parser = clap::value_parser!(u32).range(..=1_000_000))]
     pub places: u32,
     /// Contexts of the core
-    #[arg(short = 'k', long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=24))]
+    #[arg(short = 'k', long, value_name = "N", default_value_t = 16)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=24))]
     pub contexts: u32,
     /// Seed; one seed gives the same features on every machine
     #[arg(long, default_value_t = 1)]

@@ -1,5 +1,5 @@
-//! `tracks`: image features that a camera tracks, frame by frame, in a mesh that lives on the core and on the processor,
-//! beside a core and a processor that make the mesh of every frame anew.
+//! `tracks`: image features that a camera tracks, frame by frame, in a mesh that lives on the core and on the
+//! processor, beside a core and a processor that make the mesh of every frame anew.
 //!
 //! In each frame some features drift, one in 60 vanishes, as many appear, and the triangles at some places are asked
 //! for. The cycles of the core are those of its model clock by clock, which equals the Verilog at every port, from the
@@ -66,8 +66,9 @@ fn row(motion: Motion, sums: &Sums) -> String {
 #[derive(Debug, Default)]
 struct Sums {
     frames: u64,
-    /// Clocks of changes, questions and read-outs, and of the core that makes each mesh anew.
+    /// Clocks of changes, questions and read-outs.
     core: [u64; 3],
+    /// Clocks of the core that makes each mesh anew.
     anew: u64,
     /// Times of changes, questions, read-outs, and of the processor that makes each mesh anew.
     processor: Vec<[Duration; 4]>,
@@ -131,7 +132,7 @@ fn measure(arguments: &TracksArguments, motion: Motion) -> Result<Sums, Failure>
 /// A core with runs.
 fn core(config: Config) -> Result<Device, Failure> {
     let model = ChipModel::new(config).map_err(|refusal| Failure::from(refusal.to_string()))?;
-    Ok(Device::from_transport(Box::new(ClockTransport::around(model.with_questions(), config))))
+    Ok(Device::from_transport(Box::new(ClockTransport::around(model.with_core_runs(), config))))
 }
 
 fn clocks(session: &LivingSession<'_>) -> Result<u64, Failure> {

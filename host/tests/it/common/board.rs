@@ -81,7 +81,7 @@ fn core(runs: u32) -> CommandModel {
     let core = CommandModel::new(16, CAPACITY, 32).expect("a model");
     match runs {
         FEATURE_RUNS => core.with_runs(),
-        CORE_RUNS => core.with_questions(),
+        CORE_RUNS => core.with_core_runs(),
         _ => core,
     }
 }

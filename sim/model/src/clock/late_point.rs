@@ -5,8 +5,9 @@
 use super::wires::Wires;
 use crate::predicate::Point;
 
-/// Number of clocks that a point waits at most. The first lock of its attempt is cleared four clocks after the attempt
-/// has ended, and whoever takes that lock reads points two clocks later, so all of them are after the write.
+/// Number of clocks that a point waits at most, so that it is written five clocks after its attempt has ended at the
+/// latest. The first lock of the attempt is cleared at that edge at the earliest, and whoever takes it then reads
+/// points two clocks later.
 const MOST: u32 = 4;
 
 /// A point that waits for a clock in which no visit fetches a fourth point, because both use one port.

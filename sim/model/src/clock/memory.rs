@@ -75,11 +75,12 @@ pub(super) struct Memory {
     /// The current point of each context, and the clock in which the context took it.
     pub point_id: Vec<u32>,
     pub position: Vec<Point>,
-    /// The place to which the item of each context moves its vertex; and whether that vertex goes into the mesh, or has
-    /// still to be found.
+    /// The place to which the item of each context moves its vertex; and whether that vertex goes back into the mesh,
+    /// or has still to be found.
     pub target: Vec<Point>,
     pub inserts: Vec<bool>,
-    /// The vertices opposite the records of each context's star at which its chains stand: to the right and to the left.
+    /// The vertices opposite the records of each context's star at which its chains stand: to the right and to the
+    /// left.
     pub carried: Vec<[u32; 2]>,
     pub since: Vec<u32>,
     /// The ids of two free records for each vertex that has been deleted.

@@ -48,8 +48,8 @@ pub(super) struct Outcome {
     pub moves_in_place: bool,
     /// Whether the visit was the look at the first three points.
     pub looks: bool,
-    /// In a run of deletions or moves: the star after this visit; the hole that is tested on; and the hole whose next apex is
-    /// known, or that opens.
+    /// In a run of deletions or moves: the star after this visit; the hole that is tested on; and the hole whose next
+    /// apex is known, or that opens.
     pub star: Option<Star>,
     pub tests_on: Option<Hole>,
     pub opens_hole: Option<Hole>,

@@ -166,7 +166,7 @@ impl Questions {
         if events.launch.is_some_and(|launch| launch.returns) {
             self.returns.pop_front();
         }
-        self.returns.extend(events.taken_out);
+        self.returns.extend(events.put_out);
         if let Some((context, record)) = events.root.filter(|_| self.changes.has_changed) {
             self.hints[context] = record;
         }

@@ -36,7 +36,7 @@ impl ClockModel {
     /// # Panics
     /// The boundary list is longer than [`MAX_DELETE_RING`]: the hardware refuses such a core.
     #[must_use]
-    pub fn with_questions(mut self) -> Self {
+    pub fn with_core_runs(mut self) -> Self {
         assert!(self.config.ring <= MAX_DELETE_RING, "{}", ConfigError::RingForDeletions(self.config.ring));
         self.registers.features |= CORE_RUNS;
         self.registers.skips_free = true;
@@ -193,7 +193,7 @@ impl ClockModel {
             solo_ends,
             root: root.map(|done| (done.visit.context, done.visit.record)),
             committed: wires.committed.or(wires.erased.filter(|_| !wires.moves)).map(|job| (job.context, job.vertex)),
-            taken_out: wires.erased.filter(|_| wires.moves).map(|job| job.context),
+            put_out: wires.erased.filter(|_| wires.moves).map(|job| job.context),
             taken: wires.start.and_then(|start| start.id),
             launch: wires.launch,
             fetches: self.pipeline.fetches() || wires.moves && wires.new_point.is_some() || was.late_point.is_some(),

@@ -162,11 +162,11 @@ pub(super) struct Completion {
     pub walk_next: u32,
     /// The sign of `orient2d(r[0], r[1], p)`.
     pub turn: i32,
-    /// Whether the visit is one of a deletion, or of a move that has not taken its vertex out; and one of such a move.
+    /// Whether the visit is one of a deletion, or of a move whose vertex is in the mesh; and one of such a move.
     pub finds: bool,
     pub moves: bool,
-    /// In a run of deletions or moves: the slot of the context's vertex, if the record names it; and for a test of four vertices
-    /// of a ring, whether the last one replaces the best apex.
+    /// In a run of deletions or moves: the slot of the context's vertex, if the record names it; and for a test of four
+    /// vertices of a ring, whether the last one replaces the best apex.
     pub names: Option<usize>,
     pub replaces: bool,
     /// In a run of moves: whether the vertex keeps its edges at its new place, as far as this visit can tell.
@@ -176,8 +176,8 @@ pub(super) struct Completion {
 }
 
 impl Completion {
-    /// Whether the visit has a fourth point from the vertex memory: that of a test of four vertices, or the one opposite
-    /// the record before in the star of a vertex that moves.
+    /// Whether the visit has a fourth point from the vertex memory: that of a test of four vertices, or the one
+    /// opposite the record before in the star of a vertex that moves.
     pub(super) fn fetches(&self) -> bool {
         match self.visit.locks {
             true => self.moves && self.visit.goes_round_star(),

@@ -130,9 +130,9 @@ pub(super) struct Wires {
     /// Whether the solo insertion ends, and whether it ends with its point in the mesh and not as a duplicate.
     pub solo_ends: bool,
     pub solo_inserts: bool,
-    /// Whether the visit that completes is one of a deletion, or of a move that has not taken its vertex out; whether a
-    /// run of deletions or of moves is under way; the test that the filling of a hole asks for; the item that ends with a
-    /// hole that is full or flat; and the deletion whose last record is written.
+    /// Whether the visit that completes is one of a deletion, or of a move whose vertex is in the mesh; whether a
+    /// run of deletions or of moves is under way; the test that the filling of a hole asks for; the item that ends with
+    /// a hole that is full or flat; and the deletion whose last record is written.
     pub finds: bool,
     pub deletes: bool,
     pub moves: bool,

@@ -85,7 +85,7 @@ fn the_model_by_commands_says_it() {
             model = model.with_runs();
         }
         if core_runs {
-            model = model.with_questions();
+            model = model.with_core_runs();
         }
         for (sent, expected) in steps {
             model.send(&sent);
@@ -157,7 +157,7 @@ fn a_core_with_as_many_contexts_says_it() {
         let config = Config { points: exchange.capacity, ring: exchange.ring, contexts: exchange.contexts, ..TINY };
         let mut core = ClockModel::new(config).expect("possible");
         if exchange.core_runs {
-            core = core.with_questions();
+            core = core.with_core_runs();
         }
         for (sent, mut expected) in exchange.steps {
             let mut said = answer_of(&mut core, &sent);

@@ -94,7 +94,7 @@ fn run(
     let mut model = CommandModel::new(CORE_COORD_BITS, config.points, config.ring)
         .unwrap_or_else(|error| panic!("{error}"))
         .with_contexts(config.contexts)
-        .with_questions();
+        .with_core_runs();
     let mut commands = Vec::new();
     for step in steps {
         commands.extend(step.words());
@@ -171,11 +171,11 @@ fn script(random: &mut SplitMix64, config: Config, points: u64, places: u64) -> 
 
 fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, places: u64) {
     let mut random = SplitMix64::new(71);
-    let mut pair = Lockstep::new(name, config, 71).with_questions();
+    let mut pair = Lockstep::new(name, config, 71).with_core_runs();
     let mut seen = Seen::default();
     for number in 0..scripts {
         if number % 40 == 39 {
-            pair = Lockstep::new(name, config, number as u32).with_questions();
+            pair = Lockstep::new(name, config, number as u32).with_core_runs();
         }
         let steps = script(&mut random, config, points, places);
         let found = run(&mut pair, config, &steps, Stalls::ALL[number % 9], &mut random);
@@ -206,7 +206,7 @@ fn cores_with_a_broken_block_of_questions_are_caught() {
     const CORE: &str = "faulty_core_questions";
     let first_mismatch = |faults: &[&str]| {
         let mut random = SplitMix64::new(72);
-        let mut pair = Lockstep::faulty(CORE, TINY, 72, faults).with_questions();
+        let mut pair = Lockstep::faulty(CORE, TINY, 72, faults).with_core_runs();
         (0..200).find_map(|number| {
             let steps = script(&mut random, TINY, 6, 60);
             run(&mut pair, TINY, &steps, Stalls::ALL[number % 9], &mut random).err().map(|mismatch| (number, mismatch))

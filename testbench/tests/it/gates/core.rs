@@ -34,7 +34,7 @@ fn every_named_core_passes_lint_and_synthesis() {
 #[test]
 fn cores_with_runs_pass_lint_and_synthesis() {
     for config in [SMALL, FULL] {
-        let passed = gate::pass(&export::core_with_questions(config, false).unwrap(), CORE_NAME);
+        let passed = gate::pass(&export::core_with_runs(config, false).unwrap(), CORE_NAME);
         assert!(passed.is_ok(), "{} with runs: {}", config.name, passed.unwrap_err());
     }
 }

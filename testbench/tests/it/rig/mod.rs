@@ -6,6 +6,7 @@ pub mod attempt_state;
 pub mod block_ports;
 pub mod cavity_growth;
 pub mod cells;
+pub mod changes;
 pub mod command_reference;
 pub mod drawing;
 pub mod ethernet_frames;

@@ -142,9 +142,9 @@ pub(in super::super) fn replaces(visit: &Visit, memory: &Memory) -> bool {
 
 /// Whether a vertex keeps its edges at its new place `p`, as far as one visit can tell.
 ///
-/// The root shows that its triangle still turns left. So does a record of the star, and that the edge to the record
-/// before stays. A record outside must not conflict with the place. The last test is that of the edge at which the two
-/// chains have met.
+/// At the root, its triangle must still turn left. At a record of the star, the triangle must turn left and the edge to
+/// the record before must stay. A record outside must not conflict with the place. The last visit tests the edge at
+/// which the two chains have met.
 pub(in super::super) fn keeps_edges(done: &Completion, p: Point, memory: &Memory) -> bool {
     let Completion { visit, record, .. } = *done;
     let at = |v: u32| memory.vertex(v);

@@ -18,7 +18,8 @@ pub(in super::super) struct Star {
     /// Whether some record outside is a triangle and no ghost triangle.
     pub has_triangle_outside: bool,
     pub(super) is_too_long: bool,
-    /// In a move: the vertex opposite the last record of each chain, and whether all edges stay that have been looked at.
+    /// In a move: the vertex opposite the last record of each chain, and whether all edges stay that have been looked
+    /// at.
     pub carried: [u32; 2],
     pub(super) keeps: bool,
 }

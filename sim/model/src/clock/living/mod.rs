@@ -137,7 +137,9 @@ impl LivingEngine {
         }
         sh.vertices = sh.is_vertex.iter().map(|&is_vertex| u32::from(is_vertex)).sum();
         for (context, &hint) in self.contexts.iter_mut().zip(hints) {
-            context.hint = hint;
+            // A context that has taken no point since the last `Clear` has its hint from a mesh before, which may have
+            // had more records.
+            context.hint = if hint < standing.records { hint } else { 0 };
         }
     }
 

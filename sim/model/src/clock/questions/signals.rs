@@ -51,7 +51,7 @@ pub(in super::super) struct Events {
     /// The last write of a commit is requested; its context and its new vertex.
     pub committed: Option<(usize, u32)>,
     /// A vertex is out of the mesh and goes back into it: the context of its item.
-    pub taken_out: Option<usize>,
+    pub put_out: Option<usize>,
     /// The vertex that a context takes without an item.
     pub taken: Option<u32>,
     /// The vertex memory is asked for a point of a hole.

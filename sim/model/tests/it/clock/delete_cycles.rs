@@ -56,7 +56,7 @@ fn a_deletion_takes_fewer_than_25_cycles_in_runs_of_2000() {
     for (seed, count, most) in
         [(1, 1_000, 27.0), (1, 2_000, 25.0), (2, 2_000, 25.0), (3, 2_000, 25.0), (1, 4_000, 24.0)]
     {
-        let mut model = ClockModel::new(FULL).unwrap().with_questions();
+        let mut model = ClockModel::new(FULL).unwrap().with_core_runs();
         let mut insert = vec![Clear::default().word(), command_word(Opcode::Insert), 8_000];
         insert.extend((0..8_000).map(word));
         clocks(&mut model, &insert, 2 + 7);

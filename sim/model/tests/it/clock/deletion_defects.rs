@@ -22,7 +22,7 @@ fn run(kinds: &'static [RunKind], seed: u32, defect: Option<Defect>) -> Result<(
     let mut script = Script::crowded(seed);
     script.kinds = kinds;
     let config = script.config();
-    let core = ClockModel::new(config).expect("a core that can be built").with_questions();
+    let core = ClockModel::new(config).expect("a core that can be built").with_core_runs();
     let core = match defect {
         Some(defect) => core.with_defect(defect),
         None => core,

@@ -34,7 +34,7 @@ fn moved(points: &[[u32; 2]], percent: f64, random: &mut SplitMix64) -> Vec<(usi
 fn cycles(percent: u32, count: usize, seed: u64) -> f64 {
     let word = |[x, y]: [u32; 2]| x | y << 16;
     let mut points = generate(Distribution::Uniform, 8_000, 16, 1).expect("a set of this size");
-    let mut model = ClockModel::new(FULL).unwrap().with_questions();
+    let mut model = ClockModel::new(FULL).unwrap().with_core_runs();
     let mut insert = vec![Clear::default().word(), command_word(Opcode::Insert), 8_000];
     insert.extend(points.iter().copied().map(word));
     clocks(&mut model, &insert, 2 + 7);

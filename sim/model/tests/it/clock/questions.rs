@@ -33,7 +33,7 @@ fn ask(random: &mut Random) -> usize {
     words.extend([command_word(Opcode::Nearest), places.len() as u32]);
     words.extend(&places);
     let mut bench = Bench::new(CORE);
-    bench.core = ClockModel::new(CORE).expect("a core that can be built").with_questions();
+    bench.core = ClockModel::new(CORE).expect("a core that can be built").with_core_runs();
     let answers = bench.run(&words, 3, Stalls::default(), 1_000_000, random).expect("the core answers");
     let answer = answers.last().expect("an answer to each command");
     if answer.status == Status::NoMesh as u8 {

@@ -84,6 +84,7 @@ impl Pair {
     pub fn load(&mut self, points: &[u32], contexts: u32) -> Result<(), Fault> {
         let (stalls, random) = (Stalls::default(), &mut Random(0));
         self.ask(&Command::Clear(Clear::one_mesh(contexts)), stalls, random)?;
+        self.points.fill(None);
         self.insert(points, stalls, random)
     }
 

@@ -6,6 +6,7 @@ use crate::common::Random;
 use incircle_model::LivingDefect;
 use incircle_protocol::{Config, RunKind};
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// A place of a grid, as a word.
 fn place(x: u32, y: u32) -> u32 {
@@ -69,6 +70,17 @@ impl Script {
     /// What went wrong first.
     pub fn run_on(&mut self, mut pair: Pair) -> Result<Pair, Fault> {
         let count = (4 + self.random.below(self.places.len() as u32 - 4)).min(self.points - 1) as usize;
+        self.mesh_of(count, &mut pair)?;
+        // A small mesh after a larger one has fewer records than the contexts have met.
+        for _ in 0..self.random.below(3) {
+            let count = 3 + self.random.below(2) as usize;
+            self.mesh_of(count, &mut pair)?;
+        }
+        Ok(pair)
+    }
+
+    /// Makes a mesh of so many points, and does some runs on it.
+    fn mesh_of(&mut self, count: usize, pair: &mut Pair) -> Result<(), Fault> {
         let mut first: Vec<u32> = self.places[..count].to_vec();
         let is_flat = |p: &[u32]| {
             let [a, b, c] = [0, 1, 2].map(|k| ((p[k] & 0xffff) as i64, (p[k] >> 16) as i64));
@@ -81,9 +93,9 @@ impl Script {
         pair.load(&first, self.contexts)?;
         pair.check()?;
         for _ in 0..2 + self.random.below(5) {
-            self.step(&mut pair)?;
+            self.step(pair)?;
         }
-        Ok(pair)
+        Ok(())
     }
 
     fn step(&mut self, pair: &mut Pair) -> Result<(), Fault> {
@@ -219,25 +231,38 @@ fn shuffle(values: &mut [u32], random: &mut Random) {
     }
 }
 
+/// Runs scripts with these kinds of runs on a core, which must agree with the model by commands.
+pub fn agree(seeds: Range<u32>, kinds: &'static [RunKind], pair_of: fn(Config) -> Pair) {
+    for seed in seeds {
+        let mut script = Script::new(seed);
+        script.kinds = kinds;
+        let pair = pair_of(script.config());
+        match script.run_on(pair) {
+            Ok(_) => {}
+            Err(Fault::Hang) => panic!("script {seed} hangs"),
+            Err(Fault::Wrong(fault)) => panic!("script {seed}: {fault}"),
+        }
+    }
+}
+
+/// The seeds of long tests: as many as `INCIRCLE_SCRIPTS` says.
+pub fn many() -> Range<u32> {
+    let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
+    1000..1000 + scripts.unwrap_or(10_000)
+}
+
+fn living_engine(config: Config) -> Pair {
+    Pair::new(config, None)
+}
+
 #[test]
 fn hundreds_of_scripts_agree_with_the_model_by_commands() {
-    run(0..400);
+    agree(0..400, &RunKind::ALL, living_engine);
 }
 
 /// `INCIRCLE_SCRIPTS` says how many scripts run.
 #[test]
 #[ignore = "takes as long as the variable INCIRCLE_SCRIPTS says"]
 fn many_scripts_agree_with_the_model_by_commands() {
-    let scripts = std::env::var("INCIRCLE_SCRIPTS").ok().and_then(|text| text.parse().ok());
-    run(1000..1000 + scripts.unwrap_or(10_000));
-}
-
-fn run(seeds: std::ops::Range<u32>) {
-    for seed in seeds {
-        match Script::new(seed).run(None) {
-            Ok(_) => {}
-            Err(Fault::Hang) => panic!("script {seed} hangs"),
-            Err(Fault::Wrong(fault)) => panic!("script {seed}: {fault}"),
-        }
-    }
+    agree(many(), &RunKind::ALL, living_engine);
 }

@@ -17,7 +17,7 @@ named_ports!(
         context_id,
         number,
         corner,
-        is_delete,
+        hole_runs,
         is_move,
         refuses,
         is_beyond,
@@ -71,9 +71,9 @@ fn change_ends_gives_each_item_its_part() {
         if due.is_empty() && handed == [None; 2] {
             run = random.below(3);
         }
-        let [is_delete, is_move] = [run > 0, run == 2];
+        let [hole_runs, is_move] = [run > 0, run == 2];
         // A visit of a move may be one of its deletion, or of its insertion.
-        let finds = is_delete && (!is_move || random.once_in(2));
+        let finds = hole_runs && (!is_move || random.once_in(2));
         let event = match random.below(9) {
             _ if reset => Event::Nothing,
             0 | 1 if handed[context as usize].is_none() && !finds => Event::HandsOver,
@@ -81,7 +81,7 @@ fn change_ends_gives_each_item_its_part() {
             3 if !finds => Event::Solo { inserts: random.once_in(2) },
             3 => Event::Fill { is_flat: true },
             8 if is_move => Event::Moves,
-            4 if is_delete && !is_move && handed[context as usize].is_none() => Event::Fill { is_flat: false },
+            4 if hole_runs && !is_move && handed[context as usize].is_none() => Event::Fill { is_flat: false },
             _ => Event::Nothing,
         };
         let committed = (0..2).find(|&context| handed[context].is_some() && random.once_in(4) && due.len() < 2);
@@ -104,7 +104,7 @@ fn change_ends_gives_each_item_its_part() {
         block.set("events_solo_ends", is_solo);
         block.set("events_solo_inserts", event == Event::Solo { inserts: true });
         block.set("events_solo_context", context);
-        block.set("is_delete", is_delete);
+        block.set("hole_runs", hole_runs);
         block.set("events_fill_ends", matches!(event, Event::Fill { .. }));
         block.set("events_fill_is_flat", event == Event::Fill { is_flat: true });
         block.set("events_fill_context", context);
@@ -138,7 +138,7 @@ fn change_ends_gives_each_item_its_part() {
             }
         };
         let is_noted = part.is_none() && refuses && has_room;
-        let refusal = match (is_delete, is_beyond) {
+        let refusal = match (hole_runs, is_beyond) {
             (true, _) => (refused_number, MISSING, refused_vertex),
             (false, true) => (refused_number, FULL, refused_vertex),
             (false, false) => (refused_number, IN_USE, refused_vertex),
@@ -161,7 +161,7 @@ fn change_ends_gives_each_item_its_part() {
                 block.expect("ends_context", context);
             }
             let unmarked = match event {
-                Event::Duplicate if !is_delete => Some(vertex),
+                Event::Duplicate if !hole_runs => Some(vertex),
                 Event::Solo { inserts: false } if !is_move => Some(last[1]),
                 _ => None,
             };

@@ -12,7 +12,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     VertexCheck,
     [
-        reset, clears, capacity, arrived, dealt, is_change, is_delete, vertex, accepted, is_noted, marks, marked,
+        reset, clears, capacity, arrived, dealt, is_change, hole_runs, vertex, accepted, is_noted, marks, marked,
         disowns, unmarks, unmarked, fetches, fetched
     ],
     [taken, offered, refuses, is_beyond, wanted],
@@ -95,8 +95,8 @@ impl Rig {
 
     /// Brings an item through the block: `None` if it goes to its context, else whether its vertex is beyond the
     /// capacity.
-    fn bring(&mut self, vertex: u64, is_change: bool, is_delete: bool) -> Option<bool> {
-        self.block.set("is_delete", is_delete);
+    fn bring(&mut self, vertex: u64, is_change: bool, hole_runs: bool) -> Option<bool> {
+        self.block.set("hole_runs", hole_runs);
         self.block.set("dealt_valid", true);
         self.block.set("is_change", is_change);
         self.block.set("vertex", vertex);
@@ -113,11 +113,11 @@ impl Rig {
             self.block.settle();
             if is_change && is_offered {
                 self.block.expect("offered_item_vertex", vertex);
-                if !is_delete {
+                if !hole_runs {
                     self.block.expect("offered_item_owns", self.keepers.contains(&vertex));
                 }
             }
-            if is_delete && is_offered {
+            if hole_runs && is_offered {
                 self.block.expect("offered_item_place", point(vertex));
             }
             self.block.expect("taken", takes && (is_offered || is_refused));
@@ -141,7 +141,7 @@ fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
     let random = SplitMix64::new(82);
     let (in_use, keepers) = (BTreeSet::new(), BTreeSet::new());
     let mut rig = Rig { block, random, in_use, keepers, arrived: 0, fetched: [0; 2] };
-    for port in ["clears", "dealt_valid", "is_change", "is_delete", "accepted", "is_noted", "disowns"] {
+    for port in ["clears", "dealt_valid", "is_change", "hole_runs", "accepted", "is_noted", "disowns"] {
         rig.block.set(port, false);
     }
     rig.block.set("capacity", POINTS);
@@ -156,7 +156,7 @@ fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
         rig.clear();
         for _ in 0..rig.random.below(12) {
             let is_change = !rig.random.once_in(6);
-            let is_delete = is_change && rig.random.once_in(3);
+            let hole_runs = is_change && rig.random.once_in(3);
             let vertex = match rig.random.below(6) {
                 0 => rig.random.bits(32) | POINTS,
                 1 => POINTS,
@@ -164,21 +164,21 @@ fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
             };
             let wanted = match () {
                 () if !is_change => None,
-                () if is_delete && rig.in_use.contains(&vertex) => None,
-                () if is_delete => Some(vertex >= POINTS),
+                () if hole_runs && rig.in_use.contains(&vertex) => None,
+                () if hole_runs => Some(vertex >= POINTS),
                 () if vertex >= POINTS => Some(true),
                 () if rig.in_use.contains(&vertex) => Some(false),
                 () => None,
             };
-            assert_eq!(rig.bring(vertex, is_change, is_delete), wanted, "vertex {vertex}, in use {:?}", rig.in_use);
-            if is_delete && wanted.is_none() {
+            assert_eq!(rig.bring(vertex, is_change, hole_runs), wanted, "vertex {vertex}, in use {:?}", rig.in_use);
+            if hole_runs && wanted.is_none() {
                 rig.in_use.remove(&vertex);
                 rig.keepers.insert(vertex);
             } else if is_change && wanted.is_none() {
                 rig.in_use.insert(vertex);
             }
             let kind = match wanted {
-                _ if is_delete => 3 + usize::from(wanted.is_some()),
+                _ if hole_runs => 3 + usize::from(wanted.is_some()),
                 None => 0,
                 Some(is_beyond) => 1 + usize::from(is_beyond),
             };

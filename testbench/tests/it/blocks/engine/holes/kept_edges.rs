@@ -1,4 +1,5 @@
-//! Runs `KeptEdges` in Rust and in Verilog beside a statement of the rules for each kind of visit: all three must agree.
+//! Runs `KeptEdges` in Rust and in Verilog beside a statement of the rules for each kind of visit: all three must
+//! agree.
 
 use crate::rig::stepper::bundles::flip;
 use crate::rig::stepper::{named_ports, Stepper};

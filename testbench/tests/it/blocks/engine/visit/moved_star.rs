@@ -1,5 +1,5 @@
-//! Runs `MovedStar` in Rust and in Verilog beside a statement of the rules, with a visit in every clock: the corners and
-//! the point of a visit come two clocks after its record, and its mark of a torn point three clocks after.
+//! Runs `MovedStar` in Rust and in Verilog beside a statement of the rules, with a visit in every clock: the corners
+//! and the point of a visit come two clocks after its record, and its mark of a torn point three clocks after.
 
 use std::collections::VecDeque;
 
