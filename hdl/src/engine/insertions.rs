@@ -233,6 +233,7 @@ impl Logic for Insertions {
             self.view[i].solo.next = self.solo.val();
             self.view[i].contexts.next = self.dispatcher.contexts.val();
             self.view[i].start.next = self.dispatcher.own_start[i].val();
+            self.view[i].wishes.next = self.dispatcher.wishes[i].val();
             self.changes[i].next = self.view[i].events.val();
         }
 
@@ -275,9 +276,11 @@ impl Logic for Insertions {
             self.merge[i].hole_lock.next = self.holes[i].lock.val();
             self.merge[i].attempt_release.next = self.attempts.releases.val();
             self.merge[i].hole_release.next = self.holes[i].releases.val();
+            self.merge[i].may_settle.next = self.holes[i].may_settle.val();
             self.merge[i].ending.next = self.holes[i].ending.val();
             self.merge[i].erased.next = self.holes[i].erased.val();
-            self.merge[i].starts.next = self.dispatcher.start.val().valid;
+            self.merge[i].wishes.next = self.dispatcher.wishes[i].val();
+            self.view[i].fill_asks.next = self.holes[i].push_valid.val();
             self.merge[i].asks.next = self.holes[i].push_valid.val();
             self.merge[i].attempt_is_done.next = self.attempts.is_done.val();
             self.holes[i].may_end.next = self.merge[i].may_end.val();

@@ -49,12 +49,13 @@ pub struct Changes {
     pub accepted: Signal<In, Bit>,
     /// No context has an item.
     pub queues_rest: Signal<In, Bit>,
+    /// The events of the clock before; the context of the visit that completed then, the number of its item, and the
+    /// corner that the visit has met.
     pub events: Signal<In, ChangeEvents>,
-    /// The context of the visit that completes, the number of its item, and the corner that the visit has met.
     pub context_id: Signal<In, ContextId>,
     pub number: Signal<In, ItemNumber>,
     pub corner: Signal<In, VertexId>,
-    /// An item begins at this edge; there is room for the part of another one.
+    /// An item begins at this edge; there is room for the part of one that is refused, and no other part takes it.
     pub launches: Signal<In, Bit>,
     pub launch: Signal<In, Launch>,
     pub has_room: Signal<In, Bit>,
@@ -68,9 +69,10 @@ pub struct Changes {
     /// Some point of an `Insert` is not finished; the last one still waits for its context.
     pub is_pending: Signal<Out, Bit>,
     pub point_waits: Signal<Out, Bit>,
-    /// A vertex is in the mesh.
+    /// A vertex is in the mesh; or one falls out of use, and no item may begin.
     pub raises: Signal<Out, Bit>,
     pub raised: Signal<Out, VertexId>,
+    pub unmarks: Signal<Out, Bit>,
     /// For a `Delete` or a `Move`, as the ports of [`VertexCheck`] of these names.
     pub wanted: Signal<Out, VertexId>,
     pub fetches: Signal<In, Bit>,
@@ -128,6 +130,7 @@ impl Logic for Changes {
         if self.step.remarks.val() {
             self.check.marked.next = self.step.remarked.val();
         }
+        self.unmarks.next = self.step.unmarks.val();
         self.check.unmarks.next = self.step.unmarks.val();
         self.check.unmarked.next = self.step.unmarked.val();
         self.taken.next = self.check.taken.val();
@@ -155,7 +158,7 @@ impl Logic for Changes {
         self.step.is_beyond.next = self.check.is_beyond.val();
         self.step.refused_number.next = self.dealt_item.val().number;
         self.step.refused_vertex.next = self.vertex.val();
-        self.step.has_room.next = self.has_room.val() & (!self.launches.val());
+        self.step.has_room.next = self.has_room.val();
         self.is_noted.next = self.step.is_noted.val();
         self.ends.next.valid = self.step.ends.val().valid & self.changed.q.val();
         self.ends.next.context = self.step.ends.val().context;

@@ -9,7 +9,8 @@
 //! 4. After a reset no context has an item, and the counts of the queues are cleared, one a clock. No item comes
 //!    meanwhile, because the core clears its locks for 128 clocks at least.
 //!
-//! Latency: none (combinational) from `dealt` to `taken` and `launch`; 2 clocks from `ends` to `launch`.
+//! Latency: none (combinational) from `dealt` to `taken`; 1 clock from there to `launch`; 3 clocks from `ends` to
+//! `launch`.
 //!
 //! Two items for context 1, of which the second waits until the first has ended:
 //! ```text
@@ -17,9 +18,9 @@
 //! dealt.number      .  4  5  .  .  .  .  .  .  .
 //! taken           ___/^^^^^\____________________
 //! ends            _______________/^^\___________
-//! waits           ___/^^\______________/^^^^^\__
-//! launch.number     .  4  .  .  .  .  .  5  5  .
-//! launches        ___/^^\_________________/^^\__
+//! waits           ______/^^\______________/^^^^^
+//! launch.number     .  .  4  .  .  .  .  .  5  5
+//! launches        ______/^^\_________________/^^
 //! ```
 
 use super::queue_counts::QueueCounts;
@@ -55,10 +56,14 @@ pub struct ItemQueues {
     idle: DFF<ContextSet>,
     fetch1: DFF<ContextEnd>,
     fetch2: DFF<ContextEnd>,
+    /// The item that joins the line in this clock.
+    joins: DFF<Bit>,
+    joined: DFF<Launch>,
     offered: Signal<Local, Item>,
     offered_bits: Signal<Local, Bits<ITEM_BITS>>,
     pushed: Signal<Local, Launch>,
-    pushed_bits: Signal<Local, Bits<LAUNCH_BITS>>,
+    joined_now: Signal<Local, Launch>,
+    joined_bits: Signal<Local, Bits<LAUNCH_BITS>>,
     is_idle: Signal<Local, Bit>,
     meets_end: Signal<Local, Bit>,
     begins: Signal<Local, Bit>,
@@ -98,7 +103,7 @@ impl ItemQueues {
 impl Logic for ItemQueues {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, idle, fetch1, fetch2);
+        dff_setup!(self, clock, idle, fetch1, fetch2, joins, joined);
         clock!(self, clock, items, counts, beginners);
         self.one_bit.next = 1.into();
         self.none.next = 0.into();
@@ -144,10 +149,13 @@ impl Logic for ItemQueues {
             self.pushed.next.context = self.fetch2.q.val().context;
             self.pushed.next.item = self.fetched_item.value.val();
         }
-        self.pushed_bits.next = self.pushed.val().into();
         self.beginners.reset.next = self.reset.val();
-        self.beginners.push.next = self.fetch2.q.val().valid | self.begins.val();
-        self.beginners.push_data.next = self.pushed_bits.val();
+        self.joins.d.next = (self.fetch2.q.val().valid | self.begins.val()) & (!self.reset.val());
+        self.joined.d.next = self.pushed.val();
+        self.joined_now.next = self.joined.q.val();
+        self.joined_bits.next = self.joined_now.val().into();
+        self.beginners.push.next = self.joins.q.val();
+        self.beginners.push_data.next = self.joined_bits.val();
         self.beginners.pop.next = self.launches.val();
         self.first.bits.next = self.beginners.data.val();
         self.waits.next = self.beginners.valid.val();

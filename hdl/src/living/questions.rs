@@ -10,7 +10,7 @@
 //! 1. A context works on one item at a time, and has one visit in flight, or up to three in the search of a `Nearest`.
 //!    A visit that completes asks for the next one or two, or ends its item, or leaves both to another visit in flight.
 //!    A walk begins in a clock in which no completed visit asks, so one bundle a clock enters the queue of the
-//!    pipeline.
+//!    pipeline. The item waits for that clock in [`NextItem`].
 //! 2. A walk begins where the last walk of its context has ended, or at record 0 if there was none since the last
 //!    `clears`. No record goes away while the mesh stands.
 //! 3. Questions take no lock and write no record. The user begins a run only while no insertion is at work, so the mesh
@@ -25,6 +25,8 @@
 
 use super::changes::Changes;
 use super::item_queues::ItemQueues;
+use super::late_events::LateEvents;
+use super::next_item::NextItem;
 use super::part_queue::PartQueue;
 use super::question_step::QuestionStep;
 use super::return_line::ReturnLine;
@@ -89,8 +91,10 @@ pub struct Questions {
     pub fetches: Signal<In, Bit>,
     pub fetched: Signal<In, Point>,
     changes: Changes,
+    late: LateEvents,
+    upcoming: NextItem,
     is_question: Signal<Local, Bit>,
-    may_launch: Signal<Local, Bit>,
+    walks: Signal<Local, Bit>,
     port: RunPort,
     queues: ItemQueues,
     line: ReturnLine,
@@ -107,6 +111,9 @@ pub struct Questions {
     item: Signal<Local, Item>,
     launches: Signal<Local, Bit>,
     begins_item: Signal<Local, Bit>,
+    late_events: Signal<Local, ChangeEvents>,
+    next_launch: Signal<Local, Launch>,
+    next_item: Signal<Local, Item>,
     bundle: Signal<Local, Bundle>,
     number: Signal<Local, ItemNumber>,
     part: Signal<Local, Part>,
@@ -139,7 +146,7 @@ impl Logic for Questions {
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, hinted);
-        clock!(self, clock, port, queues, line, step, parts, hints, numbers, changes);
+        clock!(self, clock, port, queues, line, step, parts, hints, numbers, changes, late, upcoming);
         self.one_bit.next = 1.into();
         self.port.reset.next = self.reset.val();
         self.port.begins.next = self.begins.val();
@@ -168,72 +175,91 @@ impl Logic for Questions {
             self.queues.ends.next.context = self.visit.val().context;
         }
 
-        // The queue of the pipeline takes one bundle a clock, so a walk begins only if no completed visit asks.
-        self.launch.next = self.queues.launch.val();
+        self.late.reset.next = self.reset.val();
+        self.late.events.next = self.events.val();
+        self.late.context_id.next = self.visit.val().context;
+        self.late.corner.next = self.step.corner.val();
+        self.late_events.next = self.late.late.val();
+
+        // The item that begins next.
         self.line.reset.next = self.reset.val();
-        self.line.puts_out.next = self.events.val().puts_out;
-        self.line.put_out_context.next = self.events.val().put_out_context;
-        if self.line.waits.val() {
-            self.launch.next = self.line.launch.val();
-        }
-        self.item.next = self.launch.val().item;
-        self.may_launch.next = self.events.val().may_launch;
-        if self.is_question.val() {
-            self.may_launch.next = !self.step.asks.val();
-        }
-        self.launches.next =
-            (self.line.waits.val() | (self.queues.waits.val() & self.parts.has_room.val())) & self.may_launch.val();
-        self.begins_item.next = self.launches.val() & (!self.line.waits.val());
+        self.line.puts_out.next = self.late_events.val().puts_out;
+        self.line.put_out_context.next = self.late_events.val().put_out_context;
+        self.upcoming.reset.next = self.reset.val();
+        self.upcoming.returns.next = self.line.waits.val();
+        self.upcoming.returned.next = self.line.launch.val();
+        self.upcoming.waits.next = self.queues.waits.val();
+        self.upcoming.queued.next = self.queues.launch.val();
+        self.upcoming.has_room.next = self.parts.has_room.val();
+        self.begins_item.next = self.upcoming.takes_queued.val();
         self.queues.launches.next = self.begins_item.val();
         self.line.begins.next = self.begins_item.val();
         self.line.begun.next = self.queues.launch.val();
-        self.line.goes.next = self.launches.val() & self.line.waits.val();
-        self.hints.read_address.next = self.launch.val().context;
-        self.wide_launch.next = bit_cast::<24, 5>(self.launch.val().context);
+        self.line.goes.next = self.upcoming.takes_returned.val();
+        self.hints.read_address.next = self.upcoming.context_id.val();
+        self.wide_launch.next = bit_cast::<24, 5>(self.upcoming.context_id.val());
         self.of_launch.next = self.hinted.q.val() >> self.wide_launch.val();
         self.start_record.next = 0.into();
         if self.of_launch.val().get_bit(0) {
             self.start_record.next = self.hints.read_data.val();
         }
-        self.push.next.valid = self.is_question.val() & (self.step.asks.val() | self.launches.val());
+        self.upcoming.start_record.next = self.start_record.val();
+
+        // The queue of the pipeline takes one bundle a clock, so a walk begins only if no completed visit asks. In the
+        // clock in which a vertex falls out of use, none may come into use.
+        self.launch.next = self.upcoming.launch.val();
+        self.item.next = self.launch.val().item;
+        self.launches.next = self.upcoming.is_ready.val()
+            & self.events.val().may_launch
+            & (!self.is_question.val())
+            & (!self.changes.unmarks.val());
+        self.walks.next = self.upcoming.is_ready.val() & self.is_question.val();
+        self.upcoming.goes.next = self.launches.val() | (self.walks.val() & (!self.step.asks.val()));
+        self.push.next.valid = self.walks.val() | (self.is_question.val() & self.step.asks.val());
         self.bundle.next = self.step.bundle.val();
         if !self.step.asks.val() {
             self.bundle.next.is_pair = false;
             self.bundle.next.context = self.launch.val().context;
             self.bundle.next.rotates = false;
             self.bundle.next.entry = 0.into();
-            self.bundle.next.record = self.start_record.val();
+            self.bundle.next.record = self.upcoming.record.val();
         }
         self.push.next.bundle = self.bundle.val();
-        self.position.next.valid = self.launches.val();
+        // The place of a question may be stored before its walk begins: its context has no visit in flight.
+        self.position.next.valid = self.launches.val() | self.walks.val();
         self.position.next.context = self.launch.val().context;
         self.position.next.point = self.item.val().place;
-        self.start.next.valid = self.launches.val() & (!self.is_question.val());
+        self.start.next.valid = self.launches.val();
         self.start.next.context = self.launch.val().context;
-        self.start.next.record = self.start_record.val();
+        self.start.next.record = self.upcoming.record.val();
         self.start.next.takes = true;
         self.start.next.id = self.item.val().vertex;
         self.deletes.next = self.port.is_active.val() & self.port.is_delete.val();
         self.moving.next.runs = self.port.is_active.val() & self.port.is_move.val();
-        self.moving.next.returns = self.line.waits.val();
+        self.moving.next.returns = self.upcoming.is_return.val();
         self.moving.next.stays = self.item.val().place == self.item.val().target;
         self.moving.next.target = self.item.val().target;
         self.owns.next = self.item.val().owns;
         self.stored.next.came = self.launches.val()
             & self.changes.runs.val()
             & (!self.port.is_delete.val())
-            & ((!self.port.is_move.val()) | self.line.waits.val());
+            & ((!self.port.is_move.val()) | self.upcoming.is_return.val());
         self.stored.next.id = self.item.val().vertex;
         self.stored.next.point = self.item.val().place;
-        self.numbers.write_address.next = self.launch.val().context;
-        self.numbers.write_data.next = self.item.val().number;
+        self.next_launch.next = self.queues.launch.val();
+        self.next_item.next = self.next_launch.val().item;
+        self.numbers.write_address.next = self.next_launch.val().context;
+        self.numbers.write_data.next = self.next_item.val().number;
         self.numbers.write_enable.next = self.begins_item.val();
 
         // A walk can end before its item does, because outside the hull a search follows. The next walk of the context
         // begins where the walk has ended, and not where the search has.
-        self.numbers.read_address.next = self.visit.val().context;
-        if self.events.val().fill_ends {
-            self.numbers.read_address.next = self.events.val().fill_context;
+        self.numbers.read_address.next = self.late.late_context.val();
+        if self.late_events.val().fill_ends {
+            self.numbers.read_address.next = self.late_events.val().fill_context;
+        }
+        if self.is_question.val() {
+            self.numbers.read_address.next = self.visit.val().context;
         }
         self.number.next = self.numbers.read_data.val();
         self.part.next.number = self.number.val();
@@ -278,13 +304,13 @@ impl Logic for Questions {
         self.changes.vertex.next = self.port.vertex.val();
         self.changes.accepted.next = self.queues.taken.val();
         self.changes.queues_rest.next = self.queues.rests.val();
-        self.changes.events.next = self.events.val();
-        self.changes.context_id.next = self.visit.val().context;
+        self.changes.events.next = self.late_events.val();
+        self.changes.context_id.next = self.late.late_context.val();
         self.changes.number.next = self.numbers.read_data.val();
-        self.changes.corner.next = self.step.corner.val();
-        self.changes.launches.next = self.launches.val() & (!self.is_question.val());
+        self.changes.corner.next = self.late.late_corner.val();
+        self.changes.launches.next = self.launches.val();
         self.changes.launch.next = self.launch.val();
-        self.changes.has_room.next = self.parts.has_room.val();
+        self.changes.has_room.next = self.parts.has_room.val() & (!self.begins_item.val());
         self.has_changed.next = self.changes.has_changed.val();
         self.is_pending.next = self.changes.is_pending.val();
         self.point_waits.next = self.changes.point_waits.val();

@@ -85,6 +85,10 @@ pub struct RunPort {
     answer: RunAnswer,
     state: DFF<RunState>,
     code: DFF<Bits<8>>,
+    /// The meaning of `code`, which many paths begin with.
+    deletes: DFF<Bit>,
+    moves: DFF<Bit>,
+    has_two_words: DFF<Bit>,
     count: DFF<Word>,
     left: DFF<Word>,
     some_are_left: DFF<Bit>,
@@ -96,8 +100,6 @@ pub struct RunPort {
     change_code: Signal<Local, Bits<8>>,
     delete_code: Signal<Local, Bits<8>>,
     move_code: Signal<Local, Bits<8>>,
-    moves: Signal<Local, Bit>,
-    has_two_words: Signal<Local, Bit>,
     starts: Signal<Local, Bit>,
     awaits_item: Signal<Local, Bit>,
     passes_item: Signal<Local, Bit>,
@@ -118,18 +120,17 @@ const _: () = assert!(
 impl Logic for RunPort {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, deletes, moves, has_two_words);
         dff_setup!(self, clock, state, code, count, left, some_are_left, status, answers, vertex_came);
         clock!(self, clock, dealer);
         self.one.next = 1.into();
         self.change_code.next = 11.into();
         self.delete_code.next = 12.into();
-        self.is_delete.next = self.code.q.val() == self.delete_code.val();
         self.move_code.next = 13.into();
-        self.moves.next = self.code.q.val() == self.move_code.val();
-        self.is_move.next = self.moves.val();
-        self.has_two_words.next = (self.code.q.val() == self.change_code.val()) | self.moves.val();
-        self.is_change.next = self.has_two_words.val() | self.is_delete.val();
-        self.is_vertex.next = self.has_two_words.val() & (!self.vertex_came.q.val());
+        self.is_delete.next = self.deletes.q.val();
+        self.is_move.next = self.moves.q.val();
+        self.is_change.next = self.has_two_words.q.val() | self.deletes.q.val();
+        self.is_vertex.next = self.has_two_words.q.val() & (!self.vertex_came.q.val());
         self.is_active.next = self.state.q.val() != RunState::Idle;
         self.is_nearest.next = self.code.q.val().get_bit(1) & (!self.code.q.val().get_bit(0));
         self.starts.next = self.begins.val() & (self.state.q.val() == RunState::Idle);
@@ -151,7 +152,7 @@ impl Logic for RunPort {
         self.dealer.contexts.next = self.contexts.val();
         self.dealer.takes.next = self.awaits_item.val() & self.command.valid.val() & (!self.is_vertex.val());
         // The item of a `Delete` is its vertex alone.
-        self.dealer.takes_vertex.next = self.takes_word.val() & (self.is_vertex.val() | self.is_delete.val());
+        self.dealer.takes_vertex.next = self.takes_word.val() & (self.is_vertex.val() | self.deletes.q.val());
         self.vertex.next = self.dealer.vertex.val();
         self.dealer.word.next = self.command.data.val();
         self.dealer.taken.next = self.taken.val();
@@ -170,6 +171,10 @@ impl Logic for RunPort {
                 self.vertex_came.d.next = false;
                 if self.starts.val() {
                     self.code.d.next = self.opcode.val();
+                    self.deletes.d.next = self.opcode.val() == self.delete_code.val();
+                    self.moves.d.next = self.opcode.val() == self.move_code.val();
+                    self.has_two_words.d.next =
+                        (self.opcode.val() == self.change_code.val()) | (self.opcode.val() == self.move_code.val());
                     self.state.d.next = RunState::Count;
                 }
             }

@@ -350,10 +350,13 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         pieces: &[piece("handed$write_enable = @;", "hands_over", "1'b0")],
     },
     Fault { name: "item_begins_beside_a_visit", pieces: &[piece("events[(64'h3e)+:(1)] = @ &", "(~may_ask)", "1'b1")] },
+    Fault { name: "item_begins_beside_a_start", pieces: &[piece("& @ & (~fill_asks)", "(~wishes)", "1'b1")] },
+    Fault { name: "item_begins_beside_a_test", pieces: &[piece("& @ & (~is_last_chance)", "(~fill_asks)", "1'b1")] },
     Fault {
-        name: "item_begins_beside_a_start",
-        pieces: &[piece("& @ & (~is_last_chance)", "(~start[(64'h0)+:(1)])", "1'b1")],
+        name: "item_begins_as_a_vertex_falls_out_of_use",
+        pieces: &[piece("(~is_question) & @;", "(~changes$unmarks)", "1'b1")],
     },
+    Fault { name: "hole_ends_beside_a_star", pieces: &[piece("| @ | commits", "may_settle", "1'b0")] },
     // M13.
     Fault {
         name: "item_begins_beside_a_solo_insertion",
@@ -407,7 +410,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
             piece("record$n2 = @;", "apex_id", "record$id"),
         ],
     },
-    Fault { name: "chains_do_not_meet", pieces: &[piece("meets = @;", "next_record == other_head", "1'b0")] },
+    Fault { name: "chains_do_not_meet", pieces: &[piece("step$meets = @;", "store$meets", "1'b0")] },
     Fault { name: "apex_is_not_replaced", pieces: &[piece("(@ | (~best_is_left))", "verdict[(64'h0)+:(1)]", "1'b0")] },
     Fault {
         name: "flat_holes_are_filled",
@@ -449,7 +452,7 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     },
     Fault {
         name: "last_edge_is_asked_for_beside_a_launch",
-        pieces: &[piece("kind$may_ask | opens | @;", "step$may_close", "1'b0")],
+        pieces: &[piece("kind$may_ask | @;", "step$may_close", "1'b0")],
     },
     Fault {
         name: "vertex_that_has_moved_is_missing",

@@ -117,6 +117,7 @@ impl Attempts {
             finds: vec![Signal::default()],
             is_free: vec![Signal::default()],
             names: vec![Signal::default()],
+            meaning: VisitCase::with_changes(),
             ..Self::new(config)
         }
     }
@@ -193,6 +194,7 @@ impl Logic for Attempts {
         self.releases.next = self.lists.releases.val();
         for i in 0..self.vertex.len() {
             self.vertex[i].next = self.points.vertex.val();
+            self.meaning.test_conflicts[i].next = self.verdict.val().conflict & (!self.is_free[i].val());
             if self.is_free[i].val() {
                 self.meaning.verdict.next.conflict = false;
             }

@@ -49,6 +49,9 @@ pub struct VisitCase {
     pub drains: Signal<In, Bit>,
     pub is_full: Signal<In, Bit>,
     pub found: Signal<Out, Case>,
+    /// In a core with changes: whether the record of a test conflicts with the point, which is known sooner than what
+    /// `verdict` says of a walk or a root of a deletion.
+    pub test_conflicts: Vec<Signal<In, Bit>>,
     completed: DFF<Bit>,
     looked: DFF<Bit>,
     walked: DFF<Bit>,
@@ -79,6 +82,13 @@ pub struct VisitCase {
     looks_again: Signal<Local, Bit>,
     passes: Signal<Local, Bit>,
     asks_again: Signal<Local, Bit>,
+}
+
+impl VisitCase {
+    /// The block of a core with changes.
+    pub fn with_changes() -> Self {
+        Self { test_conflicts: vec![Signal::default()], ..Self::default() }
+    }
 }
 
 impl Logic for VisitCase {
@@ -160,5 +170,9 @@ impl Logic for VisitCase {
             | self.asks_again.val();
         self.found.next.may_ask =
             self.may_ask_anyway.q.val() | (self.test_counts.q.val() & self.verdict.val().conflict);
+        for i in 0..self.test_conflicts.len() {
+            self.found.next.may_ask =
+                self.may_ask_anyway.q.val() | (self.test_counts.q.val() & self.test_conflicts[i].val());
+        }
     }
 }

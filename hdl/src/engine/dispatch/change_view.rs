@@ -1,8 +1,8 @@
 //! Collects the events that end the items of a run of changes, and says whether an item can begin.
 //!
-//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context starts, no
-//!    context asks for a solo insertion or is at one, and no point must be written. So the queue of visits takes one
-//!    bundle a clock.
+//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context would start, no hole
+//!    asks for a test, no context asks for a solo insertion or is at one, and no point must be written. So the queue of
+//!    visits takes one bundle a clock.
 //!
 //! Latency: none, the block is combinational.
 
@@ -25,6 +25,9 @@ pub struct ChangeView {
     pub contexts: Signal<In, ContextState>,
     /// A context that starts without an item, or with an item that it tries again.
     pub start: Signal<In, Start>,
+    /// Such a context starts in this clock if the queue is free; a hole asks for a test.
+    pub wishes: Signal<In, Bit>,
+    pub fill_asks: Signal<In, Bit>,
     /// The visit that completes is one of a deletion, or of a move whose vertex is in the mesh; it ends a move in
     /// place; and a run of moves is under way.
     pub finds: Signal<In, Bit>,
@@ -72,7 +75,8 @@ impl Logic for ChangeView {
         self.events.next.takes = self.start.val().takes;
         self.events.next.taken = self.start.val().id;
         self.events.next.may_launch = (!self.may_ask.val())
-            & (!self.start.val().valid)
+            & (!self.wishes.val())
+            & (!self.fill_asks.val())
             & (!self.is_last_chance.val())
             & (!self.contexts.val().solo_valid)
             & (!self.solo.val().is_at_work);

@@ -57,12 +57,13 @@ pub struct Dispatcher {
     pub is_quiet: Signal<Out, Bit>,
     pub stuck: Signal<Out, Bit>,
     /// In a core with changes: an item of a run begins, whose context starts to walk; a context that starts without one
-    /// (`own_start`); and what [`FinishedPoints`] and [`Starter`] must know.
+    /// (`own_start`), or would if the queue is free (`wishes`); and what [`FinishedPoints`] and [`Starter`] must know.
     pub launches: Vec<Signal<In, Bit>>,
     pub launch: Vec<Signal<In, Start>>,
     pub launch_context: Vec<Signal<In, ContextId>>,
     pub launch_vertex: Vec<Signal<In, VertexId>>,
     pub own_start: Vec<Signal<Out, Start>>,
+    pub wishes: Vec<Signal<Out, Bit>>,
     pub has_changed: Vec<Signal<In, Bit>>,
     pub is_pending: Vec<Signal<In, Bit>>,
     /// In such a core: an item ends with its hole; and the last write of a deletion is requested.
@@ -101,6 +102,7 @@ impl Dispatcher {
             launch_context: vec![Signal::default()],
             launch_vertex: vec![Signal::default()],
             own_start: vec![Signal::default()],
+            wishes: vec![Signal::default()],
             has_changed: vec![Signal::default()],
             is_pending: vec![Signal::default()],
             ..Self::new(config)
@@ -189,6 +191,7 @@ impl Logic for Dispatcher {
             self.starter.launch_context[i].next = self.launch_context[i].val();
             self.starter.launch_vertex[i].next = self.launch_vertex[i].val();
             self.own_start[i].next = self.starter.start.val();
+            self.wishes[i].next = self.starter.wishes[i].val();
             if self.launches[i].val() {
                 self.start.next = self.launch[i].val();
                 self.flags.start.next = self.launch[i].val();

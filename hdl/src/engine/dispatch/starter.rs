@@ -105,6 +105,8 @@ pub struct Starter {
     pub launches: Vec<Signal<In, Bit>>,
     pub launch_context: Vec<Signal<In, ContextId>>,
     pub launch_vertex: Vec<Signal<In, VertexId>>,
+    /// In such a core: a context starts in this clock unless the queue or the port is taken; known sooner than `start`.
+    pub wishes: Vec<Signal<Out, Bit>>,
     /// The context that the pointer has left last, and the point that it has.
     left: DFF<Passed>,
     left_point: DFF<VertexId>,
@@ -149,6 +151,7 @@ impl Starter {
             launches: vec![Signal::default()],
             launch_context: vec![Signal::default()],
             launch_vertex: vec![Signal::default()],
+            wishes: vec![Signal::default()],
             ..Self::new(config)
         }
     }
@@ -243,6 +246,7 @@ impl Logic for Starter {
             self.left_point.d.next = self.points.read_data.val();
         }
         for i in 0..self.launches.len() {
+            self.wishes[i].next = self.wants.val();
             if self.only_retries[i].val() {
                 self.wants_new.d.next = false;
             }

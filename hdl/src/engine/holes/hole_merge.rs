@@ -1,7 +1,9 @@
 //! Joins the effects of visits of deletions with those of the attempts.
 //!
-//! 1. A test that the fill asks for enters the queue if no completed visit may ask for visits and no context starts.
-//! 2. An item ends with its hole if the completed visit ends neither an attempt nor an item at the same edge.
+//! 1. A test that the fill asks for enters the queue if no completed visit may ask for visits and no context would start
+//!    without an item. Items that begin wait for tests. A root may ask whatever it finds, and the attempts say so.
+//! 2. An item ends with its hole if the completed visit ends neither an attempt nor an item at the same edge, nor may
+//!    end a star.
 //!
 //! Latency: none, the block is combinational.
 
@@ -26,11 +28,13 @@ pub struct HoleMerge {
     pub commits: Signal<In, Bit>,
     pub attempt_release: Signal<In, ReleaseRequest>,
     pub hole_release: Signal<In, ReleaseRequest>,
+    /// The completed visit may end a star or a move in place; known sooner than `hole_release`.
+    pub may_settle: Signal<In, Bit>,
     pub write: Signal<In, Write>,
     pub hole_write: Signal<In, Write>,
-    /// The fill asks for a test; a context starts; an item would end with its hole.
+    /// The fill asks for a test; a context starts without an item if the queue is free; an item would end with its hole.
     pub asks: Signal<In, Bit>,
-    pub starts: Signal<In, Bit>,
+    pub wishes: Signal<In, Bit>,
     pub ending: Signal<In, FillEnd>,
     /// The last write of a deletion is requested.
     pub erased: Signal<In, Committed>,
@@ -51,7 +55,6 @@ pub struct HoleMerge {
     pub erases: Signal<Out, Bit>,
     pub erased_locks: Signal<Out, ReleaseRequest>,
     asks_or_may: Signal<Local, Bit>,
-    releases: Signal<Local, Bit>,
     is_taken: Signal<Local, Bit>,
     ends_now: Signal<Local, Bit>,
     job: Signal<Local, CommitJob>,
@@ -73,6 +76,7 @@ impl Logic for HoleMerge {
         if self.is_done.val() | self.opens_star.val() {
             self.merged_follow.next = self.hole_follow.val();
         }
+        self.merged_follow.next.may_ask = self.asks_or_may.val();
         if self.is_done.val() {
             self.merged_outcome.next = self.hole_outcome.val();
             self.merged_lock.next = self.hole_lock.val();
@@ -83,9 +87,11 @@ impl Logic for HoleMerge {
         self.aborts.next = self.hole_outcome.val().asks_for_priority;
         self.revisits.next = self.hole_outcome.val().waits;
 
-        self.pushes.next = self.asks.val() & (!self.asks_or_may.val()) & (!self.starts.val());
-        self.releases.next = self.attempt_release.val().valid | self.hole_release.val().valid;
-        self.is_taken.next = self.releases.val() | self.commits.val() | self.outcome.val().duplicate;
+        self.pushes.next = self.asks.val() & (!self.asks_or_may.val()) & (!self.wishes.val());
+        self.is_taken.next = self.attempt_release.val().valid
+            | self.may_settle.val()
+            | self.commits.val()
+            | self.outcome.val().duplicate;
         self.may_end.next = !self.is_taken.val();
         self.ends_now.next = self.ending.val().valid & (!self.is_taken.val());
         self.ends.next = self.ends_now.val();

@@ -4,6 +4,7 @@
 //!    challenger conflicts with its triangle. On a base with the infinite vertex the conflict alone decides.
 //! 2. The last challenger of an interval makes the apex known.
 //! 3. A hole that opens has the whole ring as its interval, with the infinite vertex at its end if the ring has it.
+//!    [`HoleFill`](super::HoleFill) finds its beginning and its first test (`is_new`).
 //!
 //! Latency: 1 clock from `early_visit` to the hole; none from the verdict.
 
@@ -41,9 +42,6 @@ pub struct HoleStep {
     unpacked: Unpack<Hole, HOLE_BITS>,
     state: DFF<Hole>,
     after_challenger: NextPlace,
-    after_end: NextPlace,
-    after_begin: NextPlace,
-    after_best: NextPlace,
     hole: Signal<Local, Hole>,
     hole_after: Signal<Local, Hole>,
     opened: Signal<Local, Hole>,
@@ -62,9 +60,6 @@ impl HoleStep {
         Self {
             holes: LutMemory::new(context_bits(config), HOLE_BITS),
             after_challenger: NextPlace::new(config),
-            after_end: NextPlace::new(config),
-            after_begin: NextPlace::new(config),
-            after_best: NextPlace::new(config),
             ..Self::default()
         }
     }
@@ -108,21 +103,13 @@ impl Logic for HoleStep {
         if self.star.val().has_infinite {
             self.ring_end.next = self.star.val().infinite;
         }
-        self.after_end.place.next = self.ring_end.val();
-        self.after_end.first.next = self.star.val().first;
-        self.after_end.last.next = self.star.val().last;
-        self.after_begin.place.next = self.after_end.after.val();
-        self.after_begin.first.next = self.star.val().first;
-        self.after_begin.last.next = self.star.val().last;
-        self.after_best.place.next = self.after_begin.after.val();
-        self.after_best.first.next = self.star.val().first;
-        self.after_best.last.next = self.star.val().last;
-        self.opened.next.i = self.after_end.after.val();
+        self.opened.next.i = 0.into();
         self.opened.next.j = self.ring_end.val();
         self.opened.next.base = 0.into();
-        self.opened.next.best = self.after_begin.after.val();
-        self.opened.next.challenger = self.after_best.after.val();
-        self.opened.next.is_ready = self.after_best.after.val() == self.ring_end.val();
+        self.opened.next.best = 0.into();
+        self.opened.next.challenger = 0.into();
+        self.opened.next.is_ready = false;
+        self.opened.next.is_new = true;
         self.opened.next.end = self.ring_end.val();
         self.opened.next.first = self.star.val().first;
         self.opened.next.last = self.star.val().last;

@@ -45,7 +45,7 @@ use super::star_visits::StarVisits;
 use super::test_visit::TestVisit;
 use crate::engine::types::{
     Arrival, Bundle, Carried, Committed, Completion, FillEnd, Follow, KeptWrite, LockWrite, Moving, Outcome,
-    ReleaseRequest, RingCount, Start, TestVertices, Turned, Upcoming, Verdict, VertexId, Visit, Write,
+    ReleaseRequest, RingCount, RingEntry, Start, TestVertices, Turned, Upcoming, Verdict, VertexId, Visit, Write,
 };
 use crate::predicate::Sides;
 use crate::prelude::*;
@@ -88,6 +88,8 @@ pub struct Holes {
     pub outcome: Signal<Out, Outcome>,
     pub lock: Signal<Out, LockWrite>,
     pub releases: Signal<Out, ReleaseRequest>,
+    /// The completed visit may end a star or a move in place; known sooner than `outcome` and `releases`.
+    pub may_settle: Signal<Out, Bit>,
     /// A test that is asked for, and whether it enters the queue at this edge.
     pub push: Signal<Out, Bundle>,
     pub push_valid: Signal<Out, Bit>,
@@ -120,6 +122,8 @@ pub struct Holes {
     writer: HoleWriter,
     early_visit: Signal<Local, Visit>,
     visit: Signal<Local, Visit>,
+    early_turned: Signal<Local, Turned>,
+    early_entry: Signal<Local, RingEntry>,
     turned: Signal<Local, Turned>,
     opens: Signal<Local, Bit>,
     names_it: Signal<Local, Bit>,
@@ -203,6 +207,17 @@ impl Logic for Holes {
         self.runs.next = self.deletes.val() | self.moving.val().runs;
         self.store.keeps.next = self.edges.keeps.val();
         self.step.held.next = self.store.held.val();
+        self.step.meets.next = self.store.meets.val();
+        self.early_turned.next = self.early.val().turned;
+        self.early_entry.next = self.early_visit.val().entry;
+        self.store.early_next.next = self.early_turned.val().n2;
+        if self.early_entry.val().get_bit(5) {
+            self.store.early_next.next = self.early_turned.val().n1;
+        }
+        self.store.onward.next = self.step.onward.val();
+        self.store.goes.next = self.step.goes_on.val();
+        self.store.ring_capacity.next = self.ring_capacity.val();
+        self.may_settle.next = self.step.may_settle.val() | self.kind.is_last_edge.val();
         self.store.opens.next = self.opens.val();
         self.store.left.next = self.visits.left.val();
         self.store.right.next = self.visits.right.val();
@@ -248,7 +263,7 @@ impl Logic for Holes {
             | self.step.looks_outside.val()
             | self.step.closes.val()
             | self.hole.asks.val();
-        self.follow.next.may_ask = self.kind.may_ask.val() | self.opens.val() | self.step.may_close.val();
+        self.follow.next.may_ask = self.kind.may_ask.val() | self.step.may_close.val();
         self.follow.next.bundle = self.visits.bundle.val();
 
         self.first_test.asked.next = self.fill.hole.val();

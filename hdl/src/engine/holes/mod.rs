@@ -3,6 +3,7 @@
 //! Rules of a mesh that lives (see `docs/living-mesh.md`): M2, M8 ([`NamedVertex`]); M3 ([`StarOutcome`]); M4, M5
 //! ([`StarCase`], [`StarStep`]); M6 ([`HoleWriter`]); M8 ([`HoleRecords`]); M12 ([`KeptEdges`], [`StarStep`]).
 
+mod first_challenge;
 mod hole_fill;
 mod hole_merge;
 mod hole_records;
@@ -24,6 +25,7 @@ mod star_store;
 mod star_visits;
 mod test_visit;
 
+pub use first_challenge::FirstChallenge;
 pub use hole_fill::{FillState, HoleFill};
 pub use hole_merge::HoleMerge;
 pub use hole_records::HoleRecords;

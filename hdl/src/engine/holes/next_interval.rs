@@ -1,4 +1,4 @@
-//! The interval that comes after the apex of one is known.
+//! The interval that comes after the apex of one is known, up to its first test ([`FirstChallenge`](super::FirstChallenge)).
 //!
 //! 1. The interval before the apex comes first, then the one behind it, which waits meanwhile; then one that waits. An
 //!    interval without a vertex between its ends is none.
@@ -17,7 +17,7 @@ pub struct NextInterval {
     pub hole: Signal<In, Hole>,
     pub waiting_i: Signal<In, RingEntry>,
     pub waiting_j: Signal<In, RingEntry>,
-    /// The hole with its next interval; or none is left (`ends`).
+    /// The hole with its next interval, but with the best apex of the last one; or no interval is left (`ends`).
     pub after: Signal<Out, Hole>,
     pub ends: Signal<Out, Bit>,
     /// The triangle is written; a ring edge is its side before the apex.
@@ -32,8 +32,6 @@ pub struct NextInterval {
     after_apex: NextPlace,
     after_end: NextPlace,
     after_first: NextPlace,
-    after_begin: NextPlace,
-    after_best: NextPlace,
     has_left: Signal<Local, Bit>,
     has_right: Signal<Local, Bit>,
     restarts: Signal<Local, Bit>,
@@ -48,15 +46,7 @@ pub struct NextInterval {
 impl NextInterval {
     pub fn new(config: Config) -> Self {
         let next = || NextPlace::new(config);
-        Self {
-            after_i: next(),
-            after_apex: next(),
-            after_end: next(),
-            after_first: next(),
-            after_begin: next(),
-            after_best: next(),
-            ..Self::default()
-        }
+        Self { after_i: next(), after_apex: next(), after_end: next(), after_first: next(), ..Self::default() }
     }
 }
 
@@ -72,10 +62,6 @@ impl Logic for NextInterval {
         self.after_end.last.next = self.hole.val().last;
         self.after_first.first.next = self.hole.val().first;
         self.after_first.last.next = self.hole.val().last;
-        self.after_begin.first.next = self.hole.val().first;
-        self.after_begin.last.next = self.hole.val().last;
-        self.after_best.first.next = self.hole.val().first;
-        self.after_best.last.next = self.hole.val().last;
         self.after_i.place.next = self.hole.val().i;
         self.after_apex.place.next = self.hole.val().best;
         self.after_end.place.next = self.hole.val().end;
@@ -110,15 +96,10 @@ impl Logic for NextInterval {
             self.j.next = self.hole.val().end;
             self.base.next = 0.into();
         }
-        self.after_begin.place.next = self.i.val();
-        self.after_best.place.next = self.after_begin.after.val();
         self.after.next = self.hole.val();
         self.after.next.i = self.i.val();
         self.after.next.j = self.j.val();
         self.after.next.base = self.base.val();
-        self.after.next.best = self.after_begin.after.val();
-        self.after.next.challenger = self.after_best.after.val();
-        self.after.next.is_ready = self.after_best.after.val() == self.j.val();
         if self.pushes.val() {
             self.after.next.depth = self.depth.val() + self.one.val();
         }

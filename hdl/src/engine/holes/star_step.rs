@@ -29,7 +29,9 @@ pub struct StarStep {
     pub keeps: Signal<In, Bit>,
     /// The number of entries that a ring can have, a constant.
     pub ring_capacity: Signal<In, RingCount>,
+    /// The star, and whether the next record of the chain is the head of the other chain.
     pub held: Signal<In, Star>,
+    pub meets: Signal<In, Bit>,
     pub after: Signal<Out, Star>,
     /// The visit is made again; the record outside is asked for, and the next record of the chain (`goes_on`).
     pub revisits: Signal<Out, Bit>,
@@ -50,6 +52,8 @@ pub struct StarStep {
     /// A record of the star counts; the visit may close the star.
     pub goes_round: Signal<Out, Bit>,
     pub may_close: Signal<Out, Bit>,
+    /// The star may be over, which is known sooner.
+    pub may_settle: Signal<Out, Bit>,
     is_live: Signal<Local, Bit>,
     is_torn: Signal<Local, Bit>,
     counts: Signal<Local, Bit>,
@@ -58,14 +62,11 @@ pub struct StarStep {
     outstanding: Signal<Local, RingCount>,
     count: Signal<Local, RingCount>,
     logged: Signal<Local, LockCount>,
-    meets: Signal<Local, Bit>,
-    is_full: Signal<Local, Bit>,
     goes: Signal<Local, Bit>,
     overflows: Signal<Local, Bit>,
     looks: Signal<Local, Bit>,
     again: Signal<Local, Bit>,
     refused: Signal<Local, Bit>,
-    other_head: Signal<Local, TriangleId>,
     next_record: Signal<Local, TriangleId>,
     left_after: Signal<Local, RingCount>,
     is_last: Signal<Local, Bit>,
@@ -74,7 +75,9 @@ pub struct StarStep {
     keeps_all: Signal<Local, Bit>,
     is_kept: Signal<Local, Bit>,
     one: Signal<Local, RingCount>,
-    none: Signal<Local, RingCount>,
+    two: Signal<Local, RingCount>,
+    is_round: Signal<Local, Bit>,
+    is_almost_full: Signal<Local, Bit>,
     one_place: Signal<Local, RingEntry>,
     places: Parameter<RingEntry>,
 }
@@ -90,7 +93,7 @@ impl Logic for StarStep {
     #[hdl_gen]
     fn update(&mut self) {
         self.one.next = 1.into();
-        self.none.next = 0.into();
+        self.two.next = 2.into();
         self.one_place.next = 1.into();
         self.entry.next = self.visit.val().entry;
         self.is_right.next = self.entry.val().get_bit(5);
@@ -98,6 +101,7 @@ impl Logic for StarStep {
         self.outstanding.next = self.held.val().outstanding;
         self.count.next = self.held.val().count;
         self.logged.next = self.held.val().logged;
+        self.is_almost_full.next = self.count.val() == (self.ring_capacity.val() - self.one.val());
 
         // M4, M5: a foreign lock makes the attempt drain, unless its context has the priority.
         self.is_live.next = self.is_star.val() & (!self.held.val().drains);
@@ -114,20 +118,17 @@ impl Logic for StarStep {
         // stands in slot 1, to the right in slot 2.
         self.next_record.next = self.turned.val().n2;
         self.outside.next = self.turned.val().n1;
-        self.other_head.next = self.held.val().right_head;
         self.next_place.next = self.entry.val() + self.one_place.val();
         if self.is_right.val() {
             self.next_record.next = self.turned.val().n1;
             self.outside.next = self.turned.val().n2;
-            self.other_head.next = self.held.val().left_head;
             self.next_place.next = self.entry.val() - self.one_place.val();
         }
         self.onward.next = self.next_record.val();
-        self.meets.next = self.next_record.val() == self.other_head.val();
-        self.is_full.next = self.count.val() == self.ring_capacity.val();
-        self.goes.next = self.counts.val() & (!self.is_outside.val()) & (!self.meets.val()) & (!self.is_full.val());
-        self.overflows.next = self.counts.val() & (!self.is_outside.val()) & (!self.meets.val()) & self.is_full.val();
-        self.looks.next = self.goes.val() | (self.counts.val() & (!self.is_outside.val()) & self.meets.val());
+        self.is_round.next = self.counts.val() & (!self.is_outside.val());
+        self.goes.next = self.is_round.val() & (!self.meets.val()) & (!self.held.val().is_full);
+        self.overflows.next = self.is_round.val() & (!self.meets.val()) & self.held.val().is_full;
+        self.looks.next = self.is_round.val() & (self.meets.val() | (!self.held.val().is_full));
         self.goes_on.next = self.goes.val();
         self.looks_outside.next = self.looks.val();
 
@@ -138,7 +139,9 @@ impl Logic for StarStep {
         if self.goes.val() {
             self.left_after.next = self.outstanding.val() + self.one.val();
         }
-        self.is_last.next = self.is_star.val() & (self.left_after.val() == self.none.val());
+        // The visit is the last one if it asks for no other.
+        self.may_settle.next = self.is_star.val() & self.held.val().is_one;
+        self.is_last.next = self.is_star.val() & self.held.val().is_one & (!self.again.val()) & (!self.looks.val());
         self.fails_now.next = self.held.val().drains | self.refused.val() | self.overflows.val();
         self.fails.next = self.is_last.val() & self.fails_now.val();
         self.keeps_all.next = self.held.val().keeps & self.keeps.val();
@@ -149,11 +152,15 @@ impl Logic for StarStep {
         }
         self.closes.next = self.is_last.val() & (!self.fails_now.val()) & self.is_kept.val();
         self.opens.next = self.is_last.val() & (!self.fails_now.val()) & (!self.is_kept.val());
-        self.goes_round.next = self.counts.val() & (!self.is_outside.val());
-        self.may_close.next = self.moves.val() & self.is_outside.val() & (self.outstanding.val() == self.one.val());
+        self.goes_round.next = self.is_round.val();
+        self.may_close.next = self.moves.val() & self.is_outside.val() & self.held.val().is_one;
 
         self.after.next = self.held.val();
         self.after.next.outstanding = self.left_after.val();
+        self.after.next.is_one = self.outstanding.val() == self.two.val();
+        if self.again.val() | self.looks.val() {
+            self.after.next.is_one = self.held.val().is_one & (!self.goes.val());
+        }
         self.after.next.drains = self.fails_now.val();
         if self.counts.val() {
             self.after.next.keeps = self.keeps_all.val();
@@ -171,7 +178,7 @@ impl Logic for StarStep {
                 self.after.next.has_triangle = true;
             }
         }
-        if self.counts.val() & (!self.is_outside.val()) {
+        if self.is_round.val() {
             if self.is_right.val() {
                 self.after.next.first = self.place.val();
             } else {
@@ -180,6 +187,7 @@ impl Logic for StarStep {
         }
         if self.goes.val() {
             self.after.next.count = self.count.val() + self.one.val();
+            self.after.next.is_full = self.is_almost_full.val();
             if self.is_right.val() {
                 self.after.next.right_head = self.next_record.val();
             } else {

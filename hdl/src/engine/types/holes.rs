@@ -40,6 +40,10 @@ crate::packed! {
         pub outstanding: RingCount,
         pub count: RingCount,
         pub logged: LockCount,
+        /// One visit is in flight; the list has no room for another record. Both follow from the numbers, and are kept
+        /// beside them because a comparison takes long.
+        pub is_one: bool,
+        pub is_full: bool,
     }
 
     /// A hole that is being filled. Its interval of the ring runs from `i` to `j`.
@@ -64,6 +68,8 @@ crate::packed! {
         pub is_dry: bool,
         /// Number of locks of the attempt.
         pub locks: LockCount,
+        /// The hole has just opened: of its interval, the whole ring, only the end is known.
+        pub is_new: bool,
     }
 
     /// The hole of a context.

@@ -40,6 +40,20 @@ pub(super) struct Questions {
     changes: Changes,
     /// The contexts whose vertices are out of the mesh and go back into it.
     returns: VecDeque<usize>,
+    /// The item that begins next.
+    upcoming: Option<Upcoming>,
+    /// The events of the clock before that end items.
+    late: Events,
+}
+
+/// The item that begins next, with the record at which its walk begins.
+#[derive(Clone, Copy, Debug)]
+struct Upcoming {
+    context: usize,
+    item: Item,
+    record: u32,
+    /// Whether the vertex of the item goes back into the mesh.
+    returns: bool,
 }
 
 impl Questions {
@@ -55,6 +69,8 @@ impl Questions {
             hints: vec![0; contexts],
             changes: Changes::new(contexts, config.points),
             returns: VecDeque::new(),
+            upcoming: None,
+            late: Events::default(),
         }
     }
 
@@ -104,16 +120,26 @@ impl Questions {
 
     /// The item of a change that begins at this edge if the insertion engine lets it.
     pub(super) fn launch(&self) -> Option<Launch> {
-        if self.asks() {
+        if self.asks() || Changes::unmarked(&self.late, self.moves()).is_some() {
             return None;
         }
-        if let Some(&context) = self.returns.front() {
-            let item = Item { place: self.items[context].target, ..self.items[context] };
-            return Some(Launch { context, item, record: self.hints[context], stores: true, returns: true });
+        let Upcoming { context, item, record, returns } = self.upcoming?;
+        let stores = returns || self.changes_mesh() && !self.deletes() && !self.moves();
+        Some(Launch { context, item, record, stores, returns })
+    }
+
+    /// Chooses the item that begins next, if there is none: a vertex that goes back into the mesh, or else the first
+    /// item in the line if there is room for its part.
+    fn choose(&mut self, launched: Option<(usize, Item)>) {
+        if let Some((context, item)) = launched {
+            self.items[context] = item;
+            self.upcoming = Some(Upcoming { context, item, record: self.hints[context], returns: false });
+        } else if self.upcoming.is_none() {
+            self.upcoming = self.returns.pop_front().map(|context| {
+                let item = Item { place: self.items[context].target, ..self.items[context] };
+                Upcoming { context, item, record: self.hints[context], returns: true }
+            });
         }
-        let (context, item) = self.queues.first(self.offer()).filter(|_| self.parts.has_room())?;
-        let stores = self.changes_mesh() && !self.deletes() && !self.moves();
-        Some(Launch { context, item, record: self.hints[context], stores, returns: false })
     }
 
     /// Whether a run of questions is under way.
@@ -142,15 +168,21 @@ impl Questions {
         if let Some(visit) = visit.filter(|_| followed.is_some_and(|followed| followed.arrives)) {
             self.hints[context] = visit.record;
         }
-        let (may_launch, ends) = match asks {
-            true => (self.parts.has_room() && asked.is_empty(), found.map(|_| context)),
+        let late = std::mem::replace(&mut self.late, *events);
+        let begun = match asks {
+            true => self.upcoming.filter(|_| asked.is_empty()),
+            false => self.upcoming.filter(|_| events.launch.is_some()),
+        };
+        let ends = match asks {
+            true => found.map(|_| context),
             false => {
-                let end = events.ends.or(events.fill_ends).or(events.solo_ends).filter(|_| self.changes.has_changed);
-                (events.launch.is_some_and(|launch| !launch.returns), end.map(|end| end.context))
+                let end = late.ends.or(late.fill_ends).or(late.solo_ends).filter(|_| self.changes.has_changed);
+                end.map(|end| end.context)
             }
         };
         let offer = self.offer();
-        let done = self.queues.clock(offer, ends, may_launch);
+        let may_choose = self.upcoming.is_none() && self.returns.is_empty() && self.parts.has_room();
+        let done = self.queues.clock(offer, ends, may_choose);
         let around = Around {
             is_active: self.port.is_active(),
             is_change: self.port.is_change(),
@@ -159,22 +191,20 @@ impl Questions {
             dealt: self.port.dealt(),
             vertex: self.port.vertex(),
             accepted: done.taken,
-            has_room: self.parts.has_room() && events.launch.is_none() && done.launched.is_none(),
+            has_room: self.parts.has_room() && done.launched.is_none(),
             contexts: signals.contexts,
             clears: signals.clears,
         };
-        if events.launch.is_some_and(|launch| launch.returns) {
-            self.returns.pop_front();
-        }
-        self.returns.extend(events.put_out);
         if let Some((context, record)) = events.root.filter(|_| self.changes.has_changed) {
             self.hints[context] = record;
         }
-        let change = self.changes.clock(&around, events, &self.items, memory);
-        let walk = done.launched.and_then(|(context, item)| {
-            self.items[context] = item;
-            asks.then(|| Bundle::one(Visit::walk(context, self.hints[context])))
-        });
+        let change = self.changes.clock(&around, &events.with_ends_of(&late), &self.items, memory);
+        self.choose(done.launched);
+        self.returns.extend(late.put_out);
+        if begun.is_some() {
+            self.upcoming = None;
+        }
+        let walk = begun.filter(|_| asks).map(|it| Bundle::one(Visit::walk(it.context, it.record)));
         self.visits.clock(walk.unwrap_or(asked));
         let is_over = self.parts.is_over() && (asks || events.all_rest);
         let head = self.port.head(signals.signature);

@@ -169,12 +169,16 @@ impl ClockModel {
         let record_read = self.pipeline.record_read().map(|id| self.memory.record_words(id));
         let solo_inserts = was.solo.inserts();
         let start = wanted.filter(|_| !lacks_port && !lacks_queue);
-        let launch =
-            self.launch(lacks_queue || start.is_some() || was.late_point.is_some_and(|late| late.is_last_chance()));
         let holes = self.holes.as_ref();
-        let is_free = !lacks_queue && start.is_none() && launch.is_none();
+        let test = holes.and_then(Holes::push_request);
+        let is_free = !lacks_queue && wanted.is_none();
+        let must_write = was.late_point.is_some_and(|late| late.is_last_chance());
+        let launch = self.launch(!is_free || test.is_some() || must_write);
         let ends = |outcome: Outcome| outcome.release.is_some() || outcome.commit.is_some() || outcome.duplicate;
-        let ends_attempt = outcome.is_some_and(ends);
+        // Whether a visit of a star is the last one of its attempt is known too late, so each that may be counts.
+        let may_settle = |done: &Completion| self.may_settle(done);
+        let ends_attempt =
+            outcome.is_some_and(ends) || outcome.is_some() && finds && done.as_ref().is_some_and(may_settle);
         let holds = holes.is_some_and(Holes::writes_next);
         let moved = outcome.filter(|outcome| outcome.moves_in_place).map(|outcome| outcome.context);
         let moved = moved.map(|context| LatePoint::new(self.memory.point_id[context], self.memory.target[context]));
@@ -213,7 +217,7 @@ impl ClockModel {
             finds,
             deletes: self.deletes(),
             moves: self.moves(),
-            fill_push: holes.and_then(Holes::push_request).filter(|_| is_free),
+            fill_push: test.filter(|_| is_free),
             fill_end: holes.and_then(Holes::end_request).filter(|_| !ends_attempt),
             erased: holes.and_then(Holes::erased),
             holds,
@@ -235,6 +239,12 @@ impl ClockModel {
     /// Whether a run of moves is under way.
     fn moves(&self) -> bool {
         self.questions.as_ref().is_some_and(Questions::moves)
+    }
+
+    /// Whether a visit of a deletion or of a move is the last one in flight of its star, or the test of its last edge.
+    fn may_settle(&self, done: &Completion) -> bool {
+        let is_of_star = done.visit.rotates && done.visit.locks;
+        is_of_star && self.tables.attempts[done.visit.context].outstanding == 1 || done.visit.is_last_edge()
     }
 
     /// Whether the visit is the last one in flight of a star that moves.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 67] = [
+const ELSEWHERE: [(&str, &str, &str); 70] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -30,6 +30,7 @@ const ELSEWHERE: [(&str, &str, &str); 67] = [
     ("engine/dispatch/fill_priority", "cores/changes", "the priority in a core with deletions, at every clock"),
     ("engine/dispatch/open_teams", "blocks/engine/dispatch/starter", "a table that only the starter asks"),
     ("engine/dispatch/start_pointer", "blocks/engine/dispatch/starter", "the pointer that only the starter follows"),
+    ("engine/holes/first_challenge", "blocks/engine/holes/hole_fill", "the first test, at the ports of the fill"),
     ("engine/holes/hole_ring", "cores/changes", "the memory behind tests and writer"),
     ("engine/holes/hole_step", "cores/changes", "the apexes of triangles in holes, at every clock"),
     ("engine/holes/hole_writer", "cores/changes", "the records that fill holes, at every clock"),
@@ -63,7 +64,9 @@ const ELSEWHERE: [(&str, &str, &str); 67] = [
         "blocks/living/run_port",
         "the items of a run, at the ports of the block that takes its words",
     ),
+    ("living/late_events", "cores/changes", "the events that end items, a clock later, at every clock"),
     ("living/named_vertices", "blocks/living/question_step", "the finding in a triangle, at the ports of the step"),
+    ("living/next_item", "cores/changes", "the item that begins next, at every clock"),
     ("living/part_beat", "blocks/living/part_queue", "the words of each part, two at a time"),
     ("living/queue_counts", "blocks/living/item_queues", "the counts of the queues, which alone use them"),
     ("living/run_answer", "blocks/living/run_port", "the head of every answer, also of a run that is refused"),

@@ -1,4 +1,4 @@
-//! Goes on to the next interval of a hole when the apex of one is known: one step in each clock, one hole at a time.
+//! Goes on to the next interval of a hole when the apex of one is known: two clocks for each, one hole at a time.
 //!
 //! Hardware twin: the block `HoleFill`.
 
@@ -29,10 +29,10 @@ impl FillEnd {
 /// The next step for the hole at work.
 #[derive(Clone, Copy, Debug)]
 enum Work {
-    /// The hole is taken from the queue in this clock.
-    Begin(usize, Hole),
     /// The apex of the interval is known.
     Step(usize, Hole),
+    /// The ends of the next interval are known, and its first test is looked for.
+    Look(usize, Hole),
     /// A test is asked for.
     Push(usize, Hole),
     End(FillEnd),
@@ -43,6 +43,8 @@ pub(super) struct Fill {
     /// The hole that comes to the queue in this clock.
     arrival: Option<(usize, Hole)>,
     queue: VecDeque<(usize, Hole)>,
+    /// The first hole in line, which is at work in the clock after the one before it.
+    follower: Option<(usize, Hole)>,
     work: Option<Work>,
     /// Intervals of each context that wait.
     waiting: Vec<Vec<(usize, usize)>>,
@@ -50,7 +52,13 @@ pub(super) struct Fill {
 
 impl Fill {
     pub(super) fn new(contexts: usize) -> Self {
-        Self { arrival: None, queue: VecDeque::new(), work: None, waiting: vec![vec![(0, 0); 16]; contexts] }
+        Self {
+            arrival: None,
+            queue: VecDeque::new(),
+            follower: None,
+            work: None,
+            waiting: vec![vec![(0, 0); 16]; contexts],
+        }
     }
 
     pub(super) fn push_request(&self) -> Option<Bundle> {
@@ -74,26 +82,33 @@ impl Fill {
 
     pub(super) fn clock(&mut self, pushes: bool, ends: bool, holes: &mut [Hole], writer: &mut Writer, memory: &Memory) {
         self.queue.extend(self.arrival.take());
-        if self.work.is_none() {
-            self.work = self.queue.pop_front().map(|(context, hole)| Work::Begin(context, hole));
-        }
         self.work = match self.work {
-            Some(Work::Begin(context, hole)) if hole.apex.is_none() => Some(Work::Push(context, hole)),
-            Some(Work::Begin(context, hole) | Work::Step(context, hole)) if !writer.is_full() => {
-                Some(self.step(context, hole, writer))
-            }
+            Some(Work::Step(context, hole)) if !writer.is_full() => Some(self.step(context, hole, writer)),
+            Some(Work::Look(context, hole)) => Some(go_on(context, hole)),
             Some(Work::Push(context, hole)) if pushes => {
                 holes[context] = hole;
-                None
+                self.follow()
             }
             Some(Work::End(end)) if ends => {
                 if !end.is_flat {
                     writer.push(Job::end(end.context, &end.hole, memory.point_id[end.context]));
                 }
-                None
+                self.follow()
             }
+            None => self.follow(),
             work => work,
         };
+        if self.follower.is_none() {
+            self.follower = self.queue.pop_front();
+        }
+    }
+
+    /// The work on the first hole in line.
+    fn follow(&mut self) -> Option<Work> {
+        self.follower.take().map(|(context, hole)| match hole.is_new {
+            true => Work::Look(context, hole.looked_at()),
+            false => go_on(context, hole),
+        })
     }
 
     /// Puts the triangle on the base of the interval, and goes on to the next one.
@@ -103,7 +118,7 @@ impl Fill {
         let [left, right] = [hole.next(i) != apex, hole.next(apex) != j];
         if hole.is_dry && left {
             // A triangle stands below the ghost triangle, so the hole can be filled.
-            return go_on(context, hole.wet());
+            return Work::Look(context, hole.wet());
         }
         if !hole.is_dry {
             writer.push(Job::triangle(context, &hole, apex));
@@ -114,12 +129,12 @@ impl Fill {
             hole.depth += 1;
         }
         match (left, right) {
-            (true, _) => go_on(context, hole.interval(i, apex, Base::End)),
-            (false, true) => go_on(context, hole.interval(apex, j, Base::Beginning)),
+            (true, _) => Work::Look(context, hole.interval(i, apex, Base::End)),
+            (false, true) => Work::Look(context, hole.interval(apex, j, Base::Beginning)),
             (false, false) if hole.depth > 0 => {
                 hole.depth -= 1;
                 let (i, j) = self.waiting[context][hole.depth];
-                go_on(context, hole.interval(i, j, Base::Beginning))
+                Work::Look(context, hole.interval(i, j, Base::Beginning))
             }
             (false, false) => Work::End(FillEnd { context, is_flat: hole.is_dry, locks: hole.locks, hole }),
         }

@@ -51,6 +51,8 @@ pub(in super::super) struct Hole {
     pub is_dry: bool,
     /// Number of locks of the attempt.
     pub locks: u32,
+    /// Whether the hole has just opened.
+    pub(super) is_new: bool,
 }
 
 impl Hole {
@@ -58,8 +60,16 @@ impl Hole {
     pub(super) fn of(star: &Star, state: &Attempt, places: usize) -> Self {
         let end = star.infinite.unwrap_or(star.last);
         let is_dry = star.infinite.is_some() && !star.has_triangle_outside;
-        let hole =
-            Self { first: star.first, last: star.last, places, end, is_dry, locks: state.logged, ..Self::default() };
+        let hole = Self {
+            first: star.first,
+            last: star.last,
+            places,
+            end,
+            is_dry,
+            locks: state.logged,
+            is_new: true,
+            ..Self::default()
+        };
         hole.whole()
     }
 
@@ -71,6 +81,11 @@ impl Hole {
     /// The same hole with nothing filled.
     fn whole(self) -> Self {
         Self { depth: 0, ..self }.interval(self.next(self.end), self.end, Base::Ring)
+    }
+
+    /// The same hole when its first test is known.
+    pub(super) fn looked_at(self) -> Self {
+        Self { is_new: false, ..self }
     }
 
     /// The place after one.

@@ -103,6 +103,11 @@ impl Changes {
         }
     }
 
+    /// The vertex that falls out of use with these events, because its point is that of another one.
+    pub(super) fn unmarked(events: &Events, moves: bool) -> Option<u32> {
+        early_end(events).filter(|end| end.duplicate.is_some() && !moves).map(|end| end.vertex)
+    }
+
     /// Whether a point of an `Insert` waits for its context.
     pub(super) fn point_waits(&self) -> bool {
         self.late.is_some()
@@ -112,9 +117,8 @@ impl Changes {
     pub(super) fn clock(&mut self, around: &Around, events: &Events, numbers: &[Item], memory: &Memory) -> Done {
         let mut done = Done { raised: events.committed.map(|(_, vertex)| vertex), ..Done::default() };
         let number = |end: ItemEnd| numbers[end.context].number;
-        let stays = |end: &ItemEnd| end.duplicate.is_some() || end.early.is_some();
         let ends = events.ends.or(events.fill_ends);
-        let early = ends.filter(stays).or(events.solo_ends);
+        let early = early_end(events);
         if let Some(end) = ends.filter(|end| !stays(end)) {
             self.handed[end.context] = number(end);
         }
@@ -157,7 +161,7 @@ impl Changes {
     /// Looks whether the vertex of the item on offer can be inserted.
     fn check(&mut self, around: &Around, events: &Events, early: Option<ItemEnd>, done: &Done, memory: &Memory) {
         let finds = around.deletes || around.moves;
-        let unmarked = early.filter(|end| end.duplicate.is_some() && !around.moves).map(|end| end.vertex);
+        let unmarked = Self::unmarked(events, around.moves);
         // A vertex that cannot be deleted is in use again, and so is one that has moved.
         let has_moved = |part: &Part| part.outcome != Outcome::Duplicate && around.moves && !done.is_noted;
         let moved = done.came.filter(has_moved).map(|part| part.located.vertices[0]);
@@ -235,6 +239,16 @@ impl Changes {
             self.turn = (self.turn + 1) % around.contexts;
         }
     }
+}
+
+/// Whether an item ends without a commit: its vertex is a duplicate, or stays where it is, or has moved in place.
+fn stays(end: &ItemEnd) -> bool {
+    end.duplicate.is_some() || end.early.is_some()
+}
+
+/// The item that ends without a commit, or with its solo insertion.
+fn early_end(events: &Events) -> Option<ItemEnd> {
+    events.ends.or(events.fill_ends).filter(stays).or(events.solo_ends)
 }
 
 /// A part that names one vertex.

@@ -24,7 +24,8 @@ pub(super) struct ItemQueues {
     waiting: Vec<VecDeque<Item>>,
     /// The items that the memory gives in this clock and in the next.
     fetched: [Option<(usize, Item)>; 2],
-    /// The line of items that begin, each with its context.
+    /// The item that joins the line in this clock, and the line of items that begin, each with its context.
+    joined: Option<(usize, Item)>,
     beginners: VecDeque<(usize, Item)>,
 }
 
@@ -34,6 +35,7 @@ impl ItemQueues {
             idle: vec![true; contexts],
             waiting: vec![VecDeque::new(); contexts],
             fetched: [None; 2],
+            joined: None,
             beginners: VecDeque::new(),
         }
     }
@@ -43,13 +45,6 @@ impl ItemQueues {
         self.idle.iter().all(|&idle| idle)
     }
 
-    /// The first item in the line, with the item on offer.
-    pub(super) fn first(&self, offer: Option<(usize, Item)>) -> Option<(usize, Item)> {
-        let [comes, _] = self.fetched;
-        let begins = offer.filter(|&(context, _)| self.idle[context] && comes.is_none());
-        self.beginners.front().copied().or(comes).or(begins)
-    }
-
     /// Simulates one edge, with an item on offer and a context whose item ends.
     pub(super) fn clock(&mut self, offer: Option<(usize, Item)>, ends: Option<usize>, may_launch: bool) -> Done {
         let [comes, comes_next] = self.fetched;
@@ -57,7 +52,8 @@ impl ItemQueues {
         let stores = offer.filter(|&(context, _)| {
             !self.idle[context] && self.waiting[context].len() < DEPTH && ends != Some(context)
         });
-        self.beginners.extend(comes.or(begins));
+        self.beginners.extend(self.joined.take());
+        self.joined = comes.or(begins);
         let launched = if may_launch { self.beginners.pop_front() } else { None };
         if let Some((context, _)) = begins {
             self.idle[context] = false;

@@ -37,7 +37,8 @@ pub(in super::super) struct ItemEnd {
     pub early: Option<Outcome>,
 }
 
-/// The events of the insertion engine at an edge.
+/// The events of the insertion engine at an edge. The blocks of runs take note of those that end items, and of those of
+/// vertices, a clock later.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in super::super) struct Events {
     /// The completed visit ends the item of its context: its attempt hands its ring over, or a vertex has the point.
@@ -64,6 +65,14 @@ pub(in super::super) struct Events {
     pub arrival: Option<(u32, Point)>,
     /// Number of ids that are in use.
     pub arrived: u32,
+}
+
+impl Events {
+    /// These events, but with those of an earlier clock that end items or take vertices.
+    pub(super) fn with_ends_of(&self, earlier: &Self) -> Self {
+        let Self { ends, fill_ends, solo_ends, committed, put_out, taken, .. } = *earlier;
+        Self { ends, fill_ends, solo_ends, committed, put_out, taken, ..*self }
+    }
 }
 
 /// The signals of the rest of the core at an edge.

@@ -25,6 +25,8 @@ struct Lists {
     waiting: Vec<VecDeque<Item>>,
     /// Items that come out of the memory in the next clock, and in the one after it.
     fetched: VecDeque<Option<(usize, Item)>>,
+    /// The item that joins the line in the next clock, and the line.
+    joined: Option<(usize, Item)>,
     beginners: VecDeque<(usize, Item)>,
     /// Contexts whose item has begun.
     at_work: Vec<usize>,
@@ -37,6 +39,7 @@ impl Lists {
             idle: vec![true; contexts],
             waiting: vec![VecDeque::new(); contexts],
             fetched: VecDeque::from([None, None]),
+            joined: None,
             beginners: VecDeque::new(),
             at_work: Vec::new(),
             fullest: 0,
@@ -68,7 +71,8 @@ impl Lists {
         let begins = dealt.is_some() && self.idle[context] && comes.is_none();
         let has_place = self.waiting[context].len() < DEPTH && ends != Some(context);
         let stores = dealt.is_some() && !self.idle[context] && has_place;
-        self.beginners.extend(comes.or_else(|| dealt.filter(|_| begins)));
+        self.beginners.extend(self.joined.take());
+        self.joined = comes.or_else(|| dealt.filter(|_| begins));
         block.expect("taken", begins || stores);
         block.expect("waits", !self.beginners.is_empty());
         block.expect("rests", self.idle.iter().all(|&idle| idle));
@@ -173,7 +177,7 @@ fn item_queues_show_the_wave_of_their_header() {
     for clock in 0..10 {
         let dealt = [(1, 4), (2, 5)].into_iter().find(|&(at, _)| at == clock).map(|(_, number)| (1, (number, 9)));
         let ends = (clock == 5).then_some(1);
-        let wants = clock == 1 || clock == 8;
+        let wants = clock == 2 || clock == 9;
         let waits_before = lists.beginners.len();
         let (launched, taken) = lists.clock(&mut block, dealt, ends, wants);
         let shown = launched.or_else(|| lists.beginners.front().copied());

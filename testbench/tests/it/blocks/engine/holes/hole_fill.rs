@@ -10,8 +10,8 @@ use incircle_testkit::SplitMix64;
 named_ports!(HoleFill, [reset, came, pushes, may_end, is_full, takes, taker, taken], [asks, hole, ending, job], clock);
 
 /// Fields of a hole, in the order of their ports.
-const FIELDS: [&str; 12] =
-    ["i", "j", "base", "best", "challenger", "is_ready", "end", "first", "last", "depth", "is_dry", "locks"];
+const FIELDS: [&str; 13] =
+    ["i", "j", "base", "best", "challenger", "is_ready", "end", "first", "last", "depth", "is_dry", "locks", "is_new"];
 const I: usize = 0;
 const J: usize = 1;
 const BASE: usize = 2;
@@ -19,6 +19,7 @@ const BEST: usize = 3;
 const CHALLENGER: usize = 4;
 const IS_READY: usize = 5;
 const IS_DRY: usize = 10;
+const IS_NEW: usize = 12;
 
 /// The configuration of the exported block.
 const FILLED: Config = Config { contexts: 8, ring: 32, ..TINY };
@@ -42,7 +43,7 @@ struct Deletion {
     /// The apex of the next interval, if a test has named it or there is no choice.
     apex: Option<u64>,
     /// A test was asked for, and its answer comes in so many clocks, with this hole.
-    answer: Option<(u64, [u64; 12])>,
+    answer: Option<(u64, [u64; 13])>,
 }
 
 impl Deletion {
@@ -115,14 +116,11 @@ impl Deletion {
         }
     }
 
-    /// The hole as it opens, as fields of the port.
-    fn opened(&self) -> [u64; 12] {
-        let [i, j, base] = self.left[0];
-        let best = self.next(i);
-        let challenger = self.next(best);
-        let is_ready = u64::from(challenger == j);
+    /// The hole as it opens, as fields of the port: of its interval, only the end counts.
+    fn opened(&self, random: &mut SplitMix64) -> [u64; 13] {
+        let mut any = || random.below(PLACES);
         let is_dry = u64::from(self.is_dry);
-        [i, j, base, best, challenger, is_ready, self.end, self.first, self.last, 0, is_dry, self.locks]
+        [any(), self.end, 0, any(), any(), 0, self.end, self.first, self.last, 0, is_dry, self.locks, 1]
     }
 }
 
@@ -166,8 +164,8 @@ impl Rig {
             }
             if hole[IS_READY] == 1 {
                 deletion.apex = Some(hole[BEST]);
-                deletion.settle();
             }
+            deletion.settle();
         }
         for deletion in self.deletions.iter_mut().flatten() {
             deletion.answer = deletion.answer.map(|(clocks, hole)| (clocks.saturating_sub(1), hole));
@@ -208,7 +206,7 @@ impl Rig {
             let between = deletion.between(interval);
             assert_eq!([hole[I], hole[J], hole[BASE]], interval, "the interval of context {context}");
             assert_eq!([hole[BEST], hole[CHALLENGER]], [between[0], between[1]]);
-            assert_eq!(hole[IS_DRY] == 1, deletion.is_dry);
+            assert_eq!([hole[IS_DRY], hole[IS_NEW]], [u64::from(deletion.is_dry), 0]);
             if self.pushes {
                 let mut answer = hole;
                 (answer[BEST], answer[IS_READY]) = (self.random.pick(&between), 1);
@@ -232,7 +230,7 @@ impl Rig {
         }
         self.block.edge();
         if let Some((context, mut deletion)) = new {
-            deletion.answer = Some((self.random.below(40), deletion.opened()));
+            deletion.answer = Some((self.random.below(40), deletion.opened(&mut self.random)));
             self.deletions[context] = Some(deletion);
         }
     }

@@ -21,10 +21,11 @@ named_ports!(
         commits,
         attempt_release,
         hole_release,
+        may_settle,
         write,
         hole_write,
         asks,
-        starts,
+        wishes,
         ending,
         erased
     ],
@@ -67,9 +68,10 @@ fn an_item_ends_with_its_hole_where_nothing_else_ends() {
         let commits = set("commits", 6);
         let duplicate = set("outcome_duplicate", 6);
         let hole_duplicate = set("hole_outcome_duplicate", 6);
+        let may_settle = set("may_settle", 4);
         let releases = [set("attempt_release_valid", 6), set("hole_release_valid", 6)];
         let (ending, is_flat) = (set("ending_valid", 2), set("ending_is_flat", 3));
-        let (asks, starts) = (set("asks", 2), set("starts", 4));
+        let (asks, wishes) = (set("asks", 2), set("wishes", 4));
         let may_ask = [set("follow_may_ask", 4), set("hole_follow_may_ask", 4)].contains(&true);
         let erased = set("erased_valid", 3);
         let writes = [set("write_valid", 2), set("hole_write_valid", 3)];
@@ -87,7 +89,7 @@ fn an_item_ends_with_its_hole_where_nothing_else_ends() {
         block.set("opens_star", flip(&mut random));
         block.settle();
 
-        let may_end = !(releases.contains(&true) || commits || duplicate);
+        let may_end = !(releases[0] || may_settle || commits || duplicate);
         let ends = ending && may_end;
         block.expect("may_end", may_end);
         block.expect("ends", ends);
@@ -105,7 +107,8 @@ fn an_item_ends_with_its_hole_where_nothing_else_ends() {
             block.expect("merged_release_job_locks", locks);
         }
         block.expect("may_ask", may_ask);
-        block.expect("pushes", asks && !may_ask && !starts);
+        block.expect("merged_follow_may_ask", may_ask);
+        block.expect("pushes", asks && !may_ask && !wishes);
         block.expect("merged_is_done", is_done || attempt_is_done);
         block.expect("is_done_now", is_done);
         block.expect("merged_outcome_duplicate", if is_done { hole_duplicate } else { duplicate });
@@ -119,8 +122,8 @@ fn an_item_ends_with_its_hole_where_nothing_else_ends() {
         block.expect("erased_locks_job_locks", last.1);
         ended += u32::from(ends);
         flat += u32::from(ends && is_flat);
-        pushed += u32::from(asks && !may_ask && !starts);
-        for (count, holds) in held.iter_mut().zip([releases[0], releases[1], commits, duplicate]) {
+        pushed += u32::from(asks && !may_ask && !wishes);
+        for (count, holds) in held.iter_mut().zip([releases[0], may_settle, commits, duplicate]) {
             *count += u32::from(ending && holds);
         }
     }
