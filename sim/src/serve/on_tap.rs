@@ -47,7 +47,8 @@ pub enum TapError {
 }
 
 /// Serves a board at the TAP device `name` until `stops` is set, and calls `ready` as soon as the board takes frames.
-/// `board` makes the board once the TAP device is open. While nothing passes the cable and no session is open, the simulation stands still.
+/// `board` makes the board once the TAP device is open. While nothing passes the cable and no session is open, the
+/// simulation stands still.
 ///
 /// # Errors
 /// [`TapError`]: the system refuses the TAP device or takes it away, or the board is not part of this build.

@@ -1,5 +1,4 @@
-//! Tests that a script on a core with runs at the other end of a network gives the files of the back end `cpu`, byte for
-//! byte.
+//! Tests that a script on a core with runs behind a UDP link gives the files of the back end `cpu`, byte for byte.
 
 use super::sim_living::compare;
 use crate::common::Scratch;
