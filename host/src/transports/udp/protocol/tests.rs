@@ -146,7 +146,7 @@ fn commands_that_need_the_points_in_the_device_stay_in_their_session() {
 }
 
 #[test]
-fn a_mesh_that_stands_when_the_numbers_are_used_up_is_given_up_with_a_sentence() {
+fn a_mesh_that_stands_when_the_numbers_are_used_up_is_lost_with_a_sentence() {
     for (used, is_left) in [((1 << 31) + 1, true), (u64::from(u32::MAX) - (1 << 20), false)] {
         let mut rig = Rig::opened();
         rig.ask(&[Command::Clear(Clear::one_mesh(0)), insert()]);
