@@ -62,6 +62,11 @@ fn main() {
         }
     }
     for config in LIVING {
+        let name = format!("living_network_{}", config.name);
+        if is_wanted(&name) {
+            let verilog = exported(&name, export::udp_top_with_runs(config, network(config), UdpPins::Gmii, false));
+            builder = builder.model(ModelSource::new(&name, UDP_TOP_NAME, verilog).optimisation(Optimisation::Fast));
+        }
         let name = format!("living_stream_{}_{LIVING_BEAT}", config.name);
         if is_wanted(&name) {
             let verilog = exported(&name, export::stream_top_with_runs(config, LIVING_BEAT, false));
@@ -78,9 +83,7 @@ fn main() {
     for config in [SMALL, FULL, DUAL] {
         let name = format!("network_{}", config.name);
         if is_wanted(&name) {
-            let (link, address, prefix) = (network::network_link(config), network::ADDRESS, network::PREFIX);
-            let parameters = UdpParameters { link, address, prefix, port: network::PORT };
-            let verilog = exported(&name, export::udp_top(config, parameters, UdpPins::Gmii, false));
+            let verilog = exported(&name, export::udp_top(config, network(config), UdpPins::Gmii, false));
             builder = builder.model(ModelSource::new(&name, UDP_TOP_NAME, verilog).optimisation(Optimisation::Fast));
         }
     }
@@ -97,6 +100,12 @@ fn main() {
         Ok(echo) => builder.model(echo.trace(true)).compile(),
         Err(error) => panic!("{error}"),
     }
+}
+
+/// The parameters of a simulated board on a network.
+fn network(config: Config) -> UdpParameters {
+    let (link, address, prefix) = (network::network_link(config), network::ADDRESS, network::PREFIX);
+    UdpParameters { link, address, prefix, port: network::PORT }
 }
 
 /// Writes the named states of all cores into a file that the crate includes.

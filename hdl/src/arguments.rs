@@ -100,8 +100,7 @@ pub(crate) struct ExportArguments {
     )]
     pub(crate) engines: u32,
     /// Give the core the commands for a mesh that lives: Locate, Interpolate, Nearest, InsertAs, Delete and
-    /// Move. For cores of one engine, alone or behind a serial or a stream link, with at most 32 boundary edges in a
-    /// list.
+    /// Move. For cores of one engine, with at most 32 boundary edges in a list.
     #[arg(long, requires = "core_size")]
     pub(crate) living: bool,
     /// File to write; `-` is standard output. Needs --config or --points.
@@ -274,8 +273,7 @@ pub(crate) struct BoardArguments {
     /// Configuration of the core. Default: the first core in the table of the board.
     #[arg(long, value_parser = config, conflicts_with = "all")]
     pub(crate) config: Option<Config>,
-    /// Give the core the commands for a mesh that lives. For cores of one engine behind the serial line; no report of
-    /// such a core is kept.
+    /// Give the core the commands for a mesh that lives. For cores of one engine; no report of such a core is kept.
     #[arg(long, conflicts_with_all = ["all", "table", "renew"])]
     pub(crate) living: bool,
     /// Link between the core and its host.

@@ -35,6 +35,8 @@ pub enum Top {
     LivingSerial(LinkConfig),
     /// The core with runs behind a stream link with beats of this many bits.
     LivingStream(u32),
+    /// The core with runs behind a UDP link, with these pins of a PHY.
+    LivingUdp(UdpParameters, UdpPins),
     /// The core behind a serial link.
     Serial(LinkConfig),
     /// The core behind a stream link with beats of this many bits.
@@ -76,6 +78,7 @@ pub fn file((config, top): (Config, Top)) -> PathBuf {
         Top::Living => "_living",
         Top::LivingSerial(_) => "_living_serial",
         Top::LivingStream(_) => "_living_stream",
+        Top::LivingUdp(..) => "_living_udp",
         Top::Serial(_) => "_serial",
         Top::Stream(_) => "_stream",
         Top::Udp(..) => "_udp",
@@ -98,6 +101,10 @@ pub fn text(config: Config, top: Top, with_probe: bool) -> Result<String, Export
         Top::LivingStream(beat_bits) => (
             "incircle core with runs behind a stream link",
             export::stream_top_with_runs(config, beat_bits, with_probe)?,
+        ),
+        Top::LivingUdp(parameters, pins) => (
+            "incircle core with runs behind a UDP link",
+            export::udp_top_with_runs(config, parameters, pins, with_probe)?,
         ),
         Top::Serial(link) => ("incircle core behind a serial link", export::serial_top(config, link, with_probe)?),
         Top::Stream(beat_bits) => {

@@ -11,7 +11,6 @@ use clap::Parser;
 use incircle_hdl::board::sizes::{self, Family, Sizes, SizesRequest, FAMILIES, SIZES};
 use incircle_hdl::board::{self, Board, BoardError, BoardLink, Clock, Report, Request, BOARDS, MHZ};
 use incircle_hdl::committed::{self, Top};
-use incircle_hdl::export::ExportError;
 use incircle_protocol::{Config, LinkConfig, FULL, SILENCE_MS};
 use std::io::Write;
 use std::path::Path;
@@ -28,13 +27,17 @@ fn export(arguments: ExportArguments) -> Result<(), committed::WriteError> {
         TopName::Core if living => Top::Living,
         TopName::Serial if living => Top::LivingSerial(serial),
         TopName::Stream if living => Top::LivingStream(width),
-        TopName::Udp if living => return Err(committed::WriteError::Export(ExportError::RunsBehindUdp)),
         TopName::Core => Top::Core,
         TopName::Serial => Top::Serial(serial),
         TopName::Stream => Top::Stream(width),
         TopName::Udp => {
             let fifo_bytes = fifo_bytes.unwrap_or(UDP_FIFO_BYTES);
-            Top::Udp(arguments.network.parameters(clock_hz, fifo_bytes), arguments.pins.pins())
+            let (parameters, pins) = (arguments.network.parameters(clock_hz, fifo_bytes), arguments.pins.pins());
+            if living {
+                Top::LivingUdp(parameters, pins)
+            } else {
+                Top::Udp(parameters, pins)
+            }
         }
     };
     if let Some(config) = config.or(own) {

@@ -317,13 +317,13 @@ pub(crate) fn living_description(config: Config) -> Result<&'static ModelDescrip
     find(LIVING, config).ok_or_else(missing)
 }
 
-/// The translated core of a configuration, if there is one.
-fn find(prefix: &str, config: Config) -> Option<&'static ModelDescription> {
+/// The translated core or board of a configuration, whose name follows this prefix, if there is one.
+pub(crate) fn find(prefix: &str, config: Config) -> Option<&'static ModelDescription> {
     NAMED.contains(&config).then(|| models::find(&format!("{prefix}{}", config.name))).flatten()
 }
 
-/// Names of the configurations that were translated when this crate was built, of the cores with this prefix.
-fn built(prefix: &str) -> Vec<&'static str> {
+/// Names of the configurations that were translated when this crate was built, of the cores or boards with this prefix.
+pub(crate) fn built(prefix: &str) -> Vec<&'static str> {
     let names = models::NAMES.iter();
     names.filter_map(|name| name.strip_prefix(prefix)).collect()
 }

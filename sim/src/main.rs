@@ -14,7 +14,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use incircle_model::stream::{ModelCore, StreamModel};
 use incircle_protocol::{Config, FULL, SMALL};
 use incircle_sim::faults::FaultSpec;
-use incircle_sim::network::ADDRESS;
+use incircle_sim::network::{NetworkBoard, ADDRESS};
 use incircle_sim::pcie::{Beats, Card, CardDirectory, CardFaultSpec, CardFigures, NullDevice, PinCard};
 use incircle_sim::serial::{board_link, Board, PinBoard, QuickBoard};
 use incircle_sim::serve::{
@@ -109,9 +109,13 @@ enum Task {
         /// delay=MS, seed=N.
         #[arg(long, value_name = "SPEC", default_value = "")]
         fault: NetworkFaults,
-        /// Leave out the pins: run the software model, which has one context and no clock.
+        /// Leave out the pins: run the software model, which has one context and no clock, or with `--living` the model
+        /// of the link around the Verilated core.
         #[arg(long)]
         fast: bool,
+        /// Take the core small with runs, for a mesh that lives.
+        #[arg(long)]
+        living: bool,
         /// Put the board behind this TAP device of Linux instead of a UDP port: the kernel's own ARP, ICMP and UDP talk
         /// to its pins.
         #[arg(long, value_name = "NAME", conflicts_with_all = ["listen", "fault", "fast"])]
@@ -153,8 +157,11 @@ impl Core {
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Task::Layout { waveform } => write_layout(&waveform),
-        Task::ServeUdp { config, tap: Some(tap), .. } => run_tap(config.config(), &tap),
-        Task::ServeUdp { listen, config, fault, fast, tap: None } => run_network(config.config(), listen, fault, fast),
+        Task::ServeUdp { config, living, tap: Some(tap), .. } => run_tap(config.config(), living, &tap),
+        Task::ServeUdp { listen, config, fault, fast, living, tap: None } => {
+            let (config, faults) = (config.config(), fault);
+            run_network(NetworkService { listen, config, is_fast: fast, has_runs: living, faults })
+        }
         Task::Serve { link, config, fault, fast, living, slow } => {
             let kind = if fast { BoardKind::Quick } else { BoardKind::Pins };
             run(config.config(), kind, living, Service { link, faults: fault, slow: slow.unwrap_or(0) })
@@ -181,30 +188,32 @@ fn main() -> ExitCode {
     }
 }
 
-fn run_network(
-    config: Config,
-    listen: SocketAddrV4,
-    faults: NetworkFaults,
-    is_fast: bool,
-) -> Result<(), Box<dyn Error>> {
+fn run_network(service: NetworkService) -> Result<(), Box<dyn Error>> {
     let stops = stops()?;
-    let service = NetworkService { listen, config, is_fast, faults };
-    let what = if is_fast { "the software model" } else { "simulated at its pins" };
+    let what = match (service.is_fast, service.has_runs) {
+        (true, false) => "the software model",
+        (true, true) => "with runs, behind the software model of its link",
+        (false, false) => "simulated at its pins",
+        (false, true) => "with runs, simulated at its pins",
+    };
     let ready = |address| {
-        say_ready(&format!("an incircle device on the network, {}, {what}: open udp:{address}", config.name));
+        say_ready(&format!("an incircle device on the network, {}, {what}: open udp:{address}", service.config.name));
     };
     let NetworkFigures { to_device, to_host, faults } = serve_network(&service, &stops, ready)?;
     eprintln!("incircle-sim: {to_device} datagrams to the device, {to_host} to hosts, {faults} faults");
     Ok(())
 }
 
-fn run_tap(config: Config, tap: &str) -> Result<(), Box<dyn Error>> {
+fn run_tap(config: Config, has_runs: bool, tap: &str) -> Result<(), Box<dyn Error>> {
     let stops = stops()?;
+    let runs = if has_runs { "with runs, " } else { "" };
     let ready = || {
         let what = "simulated at its pins behind the TAP device";
-        say_ready(&format!("an incircle device on the network, {}, {what} {tap}: open udp:{ADDRESS}", config.name));
+        let name = config.name;
+        say_ready(&format!("an incircle device on the network, {name}, {runs}{what} {tap}: open udp:{ADDRESS}"));
     };
-    let TapFigures { to_device, to_host } = serve_tap(tap, config, &stops, ready)?;
+    let board = || if has_runs { NetworkBoard::living(config) } else { NetworkBoard::new(config) };
+    let TapFigures { to_device, to_host } = serve_tap(tap, board, &stops, ready)?;
     eprintln!("incircle-sim: {to_device} frames to the device, {to_host} to the kernel");
     Ok(())
 }

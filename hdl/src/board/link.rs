@@ -5,7 +5,7 @@ use super::error::BoardError;
 use super::pll::MHZ;
 use super::port::Rgmii;
 use super::Board;
-use crate::export::{self, ExportError};
+use crate::export;
 use crate::top::UdpPins;
 use crate::udp::UdpParameters;
 use incircle_protocol::Config;
@@ -80,7 +80,7 @@ impl BoardLink {
     /// The Verilog of the device that the top of a board holds, with runs or without.
     ///
     /// # Errors
-    /// If a parameter is out of range, the board has no port for this link, or the link does not carry runs.
+    /// If a parameter is out of range, or the board has no port for this link.
     pub(super) fn device(
         self,
         board: &Board,
@@ -91,10 +91,11 @@ impl BoardLink {
         match self.at(clock_mhz) {
             Self::Serial if has_runs => Ok(export::serial_top_with_runs(config, board.link(clock_mhz), false)?),
             Self::Serial => Ok(export::serial_top(config, board.link(clock_mhz), false)?),
-            Self::Udp(_) if has_runs => Err(ExportError::RunsBehindUdp.into()),
             Self::Udp(parameters) => {
                 let Rgmii { delay, clock_delay, .. } = board.port()?;
-                Ok(export::udp_top(config, parameters, UdpPins::Rgmii { delay, clock_delay }, false)?)
+                let pins = UdpPins::Rgmii { delay, clock_delay };
+                let device = if has_runs { export::udp_top_with_runs } else { export::udp_top };
+                Ok(device(config, parameters, pins, false)?)
             }
         }
     }

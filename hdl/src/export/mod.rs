@@ -1,20 +1,23 @@
 //! Exports blocks, the core and whole devices to Verilog.
 
+mod udp;
+
 use std::fmt;
 
-use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, UdpLinkConfig, BEAT_BITS, UDP_KEPT_WORDS};
+use incircle_protocol::{Config, ConfigError, LinkConfig, LinkConfigError, BEAT_BITS};
 use rust_hdl_core::check_error::CheckError;
 use rust_hdl_core::prelude::*;
 
 use crate::cluster::{Dual, Quad};
-use crate::ethernet::{RgmiiIn, RgmiiOut};
 use crate::serial::{SerialError, SerialLink};
 use crate::stream::StreamLink;
 use crate::top::{
-    serial_wrapper, stream_wrapper, udp_wrapper, wrapper, ChipParts, Core, LivingCore, SerialTop, StreamTop, UdpPins,
-    UdpTop, CORE_NAME, SERIAL_TOP_NAME, STREAM_TOP_NAME, UDP_TOP_NAME,
+    serial_wrapper, stream_wrapper, wrapper, ChipParts, Core, LivingCore, SerialTop, StreamTop, CORE_NAME,
+    SERIAL_TOP_NAME, STREAM_TOP_NAME,
 };
-use crate::udp::{UdpDevice, UdpError, UdpLink, UdpParameters};
+use crate::udp::UdpError;
+
+pub use udp::{udp_device, udp_link, udp_top, udp_top_with_runs};
 
 /// The reason why a design cannot become Verilog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,8 +36,6 @@ pub enum ExportError {
     Udp(UdpError),
     /// A width of beats with which no stream link can be built.
     BeatBits(u32),
-    /// A core with runs was asked for behind a link that it cannot have.
-    RunsBehindUdp,
 }
 
 impl fmt::Display for ExportError {
@@ -43,11 +44,6 @@ impl fmt::Display for ExportError {
             Self::Config(error) => return error.fmt(f),
             Self::Link(error) => return error.fmt(f),
             Self::Udp(error) => return error.fmt(f),
-            Self::RunsBehindUdp => {
-                return f.write_str(
-                    "a core with runs has no UDP link: choose the serial link, the stream link, or the core alone",
-                );
-            }
             Self::BeatBits(given) => {
                 let [narrow, wide] = BEAT_BITS;
                 return write!(f, "a beat of a stream has {narrow} or {wide} bits, not {given}: choose one of them");
@@ -237,68 +233,6 @@ pub fn stream_top_with_runs(config: Config, beat_bits: u32, with_probe: bool) ->
     })
 }
 
-/// The whole Verilog of a core, or of a chip of several engines, behind a UDP link: the device, and around it the ANSI
-/// wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
-///
-/// `with_probe` adds the write port of the triangle memory to the wrapper's ports, for simulation.
-///
-/// # Errors
-/// If a parameter is out of range, or the design is not fit for export.
-pub fn udp_top(
-    config: Config,
-    parameters: UdpParameters,
-    pins: UdpPins,
-    with_probe: bool,
-) -> Result<String, ExportError> {
-    on_large_stack(|| {
-        let names = ["link", "engines", "logic", "rgmii_in", "rgmii_out"].map(|part| format!("{UDP_TOP_NAME}_{part}"));
-        let [link, chip, device, rgmii_in, rgmii_out] = names;
-        let pin_blocks = match pins {
-            UdpPins::Gmii => String::new(),
-            UdpPins::Rgmii { delay, clock_delay } => {
-                connected(RgmiiIn::new(delay), &rgmii_in)? + &connected(RgmiiOut::new(clock_delay), &rgmii_out)?
-            }
-        };
-        if config.engines > 1 {
-            let parts = ChipParts { link: &link, chip: &chip, engines: config.engines, with_probe };
-            let inside = udp_device(config, parameters, parts.link)? + &engines(config, parts.chip)?;
-            return Ok(inside + &pin_blocks + &parts.udp(pins));
-        }
-        let inside = match answer_pointer_bits(config) {
-            8 => connected(UdpTop::<8>::new(config, parameters)?, &device)?,
-            12 => connected(UdpTop::<12>::new(config, parameters)?, &device)?,
-            13 => connected(UdpTop::<13>::new(config, parameters)?, &device)?,
-            _ => connected(UdpTop::<14>::new(config, parameters)?, &device)?,
-        };
-        Ok(inside + &pin_blocks + &udp_wrapper(&device, pins, with_probe))
-    })
-}
-
-/// The Verilog of all that a device with a UDP link has beside its core, with the root module `name`.
-///
-/// # Errors
-/// If a parameter is out of range, or the design is not fit for export.
-pub fn udp_device(config: Config, parameters: UdpParameters, name: &str) -> Result<String, ExportError> {
-    match answer_pointer_bits(config) {
-        8 => connected(UdpDevice::<8>::new(config, parameters)?, name),
-        12 => connected(UdpDevice::<12>::new(config, parameters)?, name),
-        13 => connected(UdpDevice::<13>::new(config, parameters)?, name),
-        _ => connected(UdpDevice::<14>::new(config, parameters)?, name),
-    }
-}
-
-/// Number of bits of a pointer of the FIFO between core and UDP link. The FIFO holds the mesh of all points of the
-/// chip, three words a point and two words an entry, but [`UDP_KEPT_WORDS`] at most, the mesh of 5,400 points: more
-/// block RAM is not left on the boards.
-fn answer_pointer_bits(config: Config) -> usize {
-    match config.points * config.engines {
-        0..=64 => 8,
-        65..=1024 => 12,
-        1025..=2048 => 13,
-        _ => const { (UDP_KEPT_WORDS / 2).ilog2() as usize + 1 },
-    }
-}
-
 /// Runs `work` in a thread with a large stack: a device is built by value, in several copies of 300 kB an engine, too
 /// much for the usual stack of a thread. If the system will not start a thread, the caller's stack must do.
 fn on_large_stack<T: Send>(work: impl Fn() -> T + Sync) -> T {
@@ -317,14 +251,6 @@ pub fn serial_link(config: Config, link: LinkConfig, name: &str) -> Result<Strin
     let mut uut = SerialLink::new(config, link)?;
     uut.connect_all();
     verilog(&uut, name)
-}
-
-/// The Verilog of a UDP link alone, without its Ethernet port, with the root module `name`.
-///
-/// # Errors
-/// If a parameter is out of range, or the design is not fit for export.
-pub fn udp_link(config: Config, link: UdpLinkConfig, name: &str) -> Result<String, ExportError> {
-    connected(UdpLink::new(config, link)?, name)
 }
 
 /// The Verilog of a stream link alone with beats of `beat_bits` bits, with the root module `name`.

@@ -27,7 +27,7 @@ use crate::leaf::LookupTable;
 use crate::prelude::*;
 use crate::serial::types::Byte;
 use incircle_protocol::{
-    Config, Identity, UdpGreeting, UdpLinkConfig, CORE_COORD_BITS, CORE_VERSION, FEATURE_SHORT_IDS, MAGIC,
+    Config, Identity, UdpGreeting, UdpLinkConfig, CORE_COORD_BITS, CORE_RUNS, CORE_VERSION, FEATURE_SHORT_IDS, MAGIC,
     PROTOCOL_VERSION, UDP_LINK_MAGIC, UDP_LINK_VERSION,
 };
 
@@ -64,7 +64,17 @@ pub struct DatagramBytes {
 impl DatagramBytes {
     /// The bytes of a device with a core of this configuration.
     pub fn new(config: Config, link: UdpLinkConfig) -> Self {
-        let bytes: Vec<u8> = words(config, link).into_iter().flat_map(u32::to_le_bytes).collect();
+        Self::with_features(config, link, FEATURE_SHORT_IDS)
+    }
+
+    /// The bytes of a device with a core with runs of this configuration.
+    pub fn with_runs(config: Config, link: UdpLinkConfig) -> Self {
+        Self::with_features(config, link, FEATURE_SHORT_IDS | CORE_RUNS)
+    }
+
+    /// The bytes of a device with a core with these bits in [`Identity::features`].
+    fn with_features(config: Config, link: UdpLinkConfig, features: u32) -> Self {
+        let bytes: Vec<u8> = words(config, link, features).into_iter().flat_map(u32::to_le_bytes).collect();
         // The table has the low six bits of an index, which differ for all bytes of the greeting.
         let byte = |row: usize| bytes[(row + 64 - WORDS_INDEX) % 64 % bytes.len()];
         Self { greeting: LookupTable::new(|row| u64::from(byte(row)).into()), ..Self::default() }
@@ -72,7 +82,7 @@ impl DatagramBytes {
 }
 
 /// The words of the greeting, in the order of `protocol/UDP.md`.
-fn words(config: Config, link: UdpLinkConfig) -> [u32; incircle_protocol::UDP_GREETING_WORDS] {
+fn words(config: Config, link: UdpLinkConfig, features: u32) -> [u32; incircle_protocol::UDP_GREETING_WORDS] {
     let UdpLinkConfig { clock_hz, fifo_bytes, silence_ms, mac } = link;
     let identity = Identity {
         magic: MAGIC,
@@ -83,7 +93,7 @@ fn words(config: Config, link: UdpLinkConfig) -> [u32; incircle_protocol::UDP_GR
         contexts: config.contexts,
         engines: config.engines,
         ring_capacity: config.ring,
-        features: FEATURE_SHORT_IDS,
+        features,
     };
     let (magic, link_version) = (UDP_LINK_MAGIC, UDP_LINK_VERSION);
     UdpGreeting { magic, link_version, clock_hz, fifo_bytes, silence_ms, mac, identity }.to_words()

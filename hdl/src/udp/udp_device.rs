@@ -82,6 +82,14 @@ impl<const P: usize> UdpDevice<P> {
             ..Self::default()
         })
     }
+
+    /// The port and the link of a core with runs of this configuration, which names them in its greeting.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_runs(config: Config, parameters: UdpParameters) -> Result<Self, UdpError> {
+        Ok(Self { link: UdpLink::with_runs(config, parameters.link)?, ..Self::new(config, parameters)? })
+    }
 }
 
 impl<const P: usize> Logic for UdpDevice<P> {

@@ -88,6 +88,14 @@ impl UdpLink {
             ..Self::default()
         })
     }
+
+    /// The UDP link of a core with runs of this configuration, which names them in its greeting.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_runs(config: Config, link: UdpLinkConfig) -> Result<Self, UdpError> {
+        Ok(Self { transmitter: UdpTransmitter::with_runs(config, link), ..Self::new(config, link)? })
+    }
 }
 
 impl Logic for UdpLink {

@@ -71,6 +71,11 @@ impl UdpTransmitter {
     pub fn new(config: Config, link: UdpLinkConfig) -> Self {
         Self { bytes: DatagramBytes::new(config, link), ..Self::default() }
     }
+
+    /// The transmitter of a core with runs behind a link whose parameters are in range.
+    pub fn with_runs(config: Config, link: UdpLinkConfig) -> Self {
+        Self { bytes: DatagramBytes::with_runs(config, link), ..Self::default() }
+    }
 }
 
 impl Logic for UdpTransmitter {

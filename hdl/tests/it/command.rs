@@ -26,6 +26,14 @@ fn cores_and_chips_of_other_sizes_are_exported() {
             "--points 64 --contexts 3 --living --top stream --width 128",
             &["incircle core with runs behind a stream link", "module incircle_stream_top (", "$questions"],
         ),
+        (
+            "--points 64 --contexts 3 --living --top udp --rgmii-delay gmii",
+            &["incircle core with runs behind a UDP link", "module incircle_udp_top (", "$questions", "rx_data"],
+        ),
+        (
+            "--points 64 --contexts 3 --living --top udp --probe",
+            &["module incircle_udp_top_rgmii_in", "write_valid", "$questions", "rx_ctl"],
+        ),
         ("--points 64 --contexts 3 --living", &["incircle core with runs", "module incircle_core (", "$questions"]),
         ("--points 16 --contexts 2 --engines 2", &["module incircle_core (", "$router", "$slot1"]),
         ("--points 16 --contexts 2 --engines 4 --top stream", &["module incircle_stream_top (", "$slot3"]),
@@ -51,12 +59,8 @@ fn sizes_that_cannot_be_built_leave_a_sentence_and_no_file() {
         ("--points 64 --contexts 3 --engines 3", 1, "a chip cannot have 3 engines: choose 1, 2 or 4"),
         ("--points 64 --contexts 3 --ring 65", 1, "a boundary list cannot hold 65 edges"),
         ("--config dual --living", 1, "cannot have 2 engines: choose a configuration of one"),
-        (
-            "--config small --living --top udp",
-            1,
-            "a core with runs has no UDP link: choose the serial link, the stream",
-        ),
         ("--config dual --living --top serial", 1, "cannot have 2 engines: choose a configuration of one"),
+        ("--config dual --living --top udp", 1, "cannot have 2 engines: choose a configuration of one"),
         ("--points 64", 2, "--contexts"),
         ("--config full --engines 2", 2, "--config"),
         ("--config full --contexts 2 --engines 4", 2, "--config"),

@@ -11,6 +11,7 @@ pub(crate) mod model;
 pub mod pcie;
 mod read_out;
 mod round_trip;
+mod sendable;
 pub mod serial;
 mod transport;
 pub mod udp;

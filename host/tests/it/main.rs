@@ -37,6 +37,7 @@ mod transports {
         mod engines;
         mod faults;
         mod goodput;
+        mod living;
         mod pace;
         mod socket;
     }

@@ -8,8 +8,8 @@ use verilated::{Model, ModelDescription, PortId};
 
 use super::frame::{datagram_of, frame_of, framed, on_cable};
 use super::parameters::{network_link, ADDRESS, PORT};
+use crate::device::{built, find};
 use crate::error::SimError;
-use crate::models;
 
 /// Picoseconds of a clock of the PHY.
 const PORT_PS: u64 = 8_000;
@@ -43,16 +43,9 @@ pub struct NetworkBoard {
     quiet: u64,
 }
 
-/// Prefix that the build script puts before the name of a configuration.
+/// Prefixes that the build script puts before the name of a configuration, without and with runs.
 const NETWORK: &str = "network_";
-
-/// The translated board of a configuration.
-fn description(config: Config) -> Result<&'static ModelDescription, SimError> {
-    let built = || models::NAMES.iter().filter_map(|name| name.strip_prefix(NETWORK)).collect::<Vec<_>>().join(", ");
-    let is_named = incircle_protocol::NAMED.contains(&config);
-    let found = is_named.then(|| models::find(&format!("{NETWORK}{}", config.name))).flatten();
-    found.ok_or_else(|| SimError::NoBoard { name: config.name, built: built() })
-}
+const LIVING: &str = "living_network_";
 
 #[derive(Clone, Copy, Debug)]
 struct Ports {
@@ -81,7 +74,21 @@ impl NetworkBoard {
     /// # Errors
     /// The board is not part of this build.
     pub fn at_clock(config: Config, clock_hz: u32) -> Result<Self, SimError> {
-        let model = Model::new(description(config)?);
+        let missing = || SimError::NoBoard { name: config.name, built: built(NETWORK).join(", ") };
+        Self::of(find(NETWORK, config).ok_or_else(missing)?, config, clock_hz)
+    }
+
+    /// A board with the core with runs of this configuration, and the same link.
+    ///
+    /// # Errors
+    /// [`SimError::NoRuns`]: boards of this configuration with runs were not translated when this crate was built.
+    pub fn living(config: Config) -> Result<Self, SimError> {
+        let missing = || SimError::NoRuns { name: config.name, built: built(LIVING).join(", ") };
+        Self::of(find(LIVING, config).ok_or_else(missing)?, config, network_link(config).clock_hz)
+    }
+
+    fn of(description: &'static ModelDescription, config: Config, clock_hz: u32) -> Result<Self, SimError> {
+        let model = Model::new(description);
         let ports = Ports {
             port_clock: model.port("port_clock")?,
             core_clock: model.port("core_clock")?,

@@ -1,7 +1,7 @@
-//! The Verilated core as a device of words, one clock at a time, for the software model of the serial link.
+//! The Verilated core as a device of words, one clock at a time, for the software model of a link.
 
-use incircle_model::serial::{Passed, WordDevice};
-use incircle_protocol::Config;
+use incircle_model::serial::{core_identity, Passed, WordDevice};
+use incircle_protocol::{Config, Identity, CORE_RUNS};
 use verilated::{Model, PortId};
 
 use crate::device::{description, living_description, CORE};
@@ -9,7 +9,7 @@ use crate::error::SimError;
 
 /// A Verilated core and its two streams.
 #[derive(Debug)]
-pub(super) struct StreamCore {
+pub(crate) struct StreamCore {
     model: Model,
     reset: PortId,
     command_valid: PortId,
@@ -23,7 +23,7 @@ pub(super) struct StreamCore {
 
 impl StreamCore {
     /// A core of this configuration, with or without runs, after its reset.
-    pub(super) fn new(config: Config, has_runs: bool) -> Result<Self, SimError> {
+    pub(crate) fn new(config: Config, has_runs: bool) -> Result<Self, SimError> {
         let found = if has_runs { living_description(config)? } else { description(CORE, config)? };
         let model = Model::new(found);
         let mut core = Self {
@@ -40,6 +40,13 @@ impl StreamCore {
         core.model.port("clock")?;
         core.reset();
         Ok(core)
+    }
+
+    /// The identity of a core of this configuration, with or without runs.
+    pub(crate) fn identity(config: Config, has_runs: bool) -> Identity {
+        let core = core_identity(config);
+        let runs = if has_runs { CORE_RUNS } else { 0 };
+        Identity { features: core.features | runs, ..core }
     }
 }
 

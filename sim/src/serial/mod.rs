@@ -11,6 +11,7 @@ mod quick;
 mod uart;
 
 pub use board::board_link;
+pub(crate) use core::StreamCore;
 pub use pins::PinBoard;
 pub use quick::QuickBoard;
 pub use uart::{Symbol, SYMBOL_BITS};

@@ -8,9 +8,8 @@ use verilated::{Model, ModelDescription, PortId};
 use super::uart::Symbol;
 use super::uart::{bit_length, UartReceiver, UartSender};
 use super::Board;
-use crate::device::RESET_CLOCKS;
+use crate::device::{built, find, RESET_CLOCKS};
 use crate::error::SimError;
-use crate::models;
 
 /// Number of clocks after which a board that was reset has cleared its memories.
 const SETTLING: u64 = 100_000;
@@ -46,8 +45,8 @@ impl PinBoard {
     /// # Errors
     /// [`SimError::NoBoard`]: boards of this configuration were not translated when this crate was built.
     pub fn new(config: Config) -> Result<Self, SimError> {
-        let found = find(SERIAL, config).ok_or_else(|| SimError::NoBoard { name: config.name, built: built(SERIAL) });
-        Self::of(config, found?)
+        let missing = || SimError::NoBoard { name: config.name, built: built(SERIAL).join(", ") };
+        Self::of(config, find(SERIAL, config).ok_or_else(missing)?)
     }
 
     /// A board with the core with runs of this configuration, and the same link.
@@ -55,8 +54,8 @@ impl PinBoard {
     /// # Errors
     /// [`SimError::NoRuns`]: boards of this configuration with runs were not translated when this crate was built.
     pub fn living(config: Config) -> Result<Self, SimError> {
-        let found = find(LIVING, config).ok_or_else(|| SimError::NoRuns { name: config.name, built: built(LIVING) });
-        Self::of(config, found?)
+        let missing = || SimError::NoRuns { name: config.name, built: built(LIVING).join(", ") };
+        Self::of(config, find(LIVING, config).ok_or_else(missing)?)
     }
 
     fn of(config: Config, description: &'static ModelDescription) -> Result<Self, SimError> {
@@ -123,17 +122,6 @@ impl PinBoard {
             self.received.push_back((self.clocks, symbol));
         }
     }
-}
-
-/// The translated board of a configuration, with the name that follows this prefix, if there is one.
-fn find(prefix: &str, config: Config) -> Option<&'static ModelDescription> {
-    let is_named = incircle_protocol::NAMED.contains(&config);
-    is_named.then(|| models::find(&format!("{prefix}{}", config.name))).flatten()
-}
-
-/// Names of the configurations of which boards with this prefix were translated when this crate was built.
-fn built(prefix: &str) -> String {
-    models::NAMES.iter().filter_map(|name| name.strip_prefix(prefix)).collect::<Vec<_>>().join(", ")
 }
 
 impl Board for PinBoard {

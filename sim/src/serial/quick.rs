@@ -3,8 +3,8 @@
 
 use std::collections::VecDeque;
 
-use incircle_model::serial::{core_identity, SerialModel};
-use incircle_protocol::{Config, LinkConfig, CORE_RUNS, FIRST_RATE};
+use incircle_model::serial::SerialModel;
+use incircle_protocol::{Config, LinkConfig, FIRST_RATE};
 
 use super::core::StreamCore;
 use super::uart::Symbol;
@@ -109,9 +109,7 @@ impl QuickBoard {
 
 /// The software model of the serial link around a fresh core.
 fn powered(config: Config, has_runs: bool, link: LinkConfig) -> Result<SerialModel<StreamCore>, SimError> {
-    let mut identity = core_identity(config);
-    identity.features |= if has_runs { CORE_RUNS } else { 0 };
-    Ok(SerialModel::new(link, identity, StreamCore::new(config, has_runs)?))
+    Ok(SerialModel::new(link, StreamCore::identity(config, has_runs), StreamCore::new(config, has_runs)?))
 }
 
 impl Board for QuickBoard {

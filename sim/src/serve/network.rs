@@ -1,5 +1,5 @@
 //! A device on a network, for any program that opens UDP sockets: the software model of the link and of the core, or a
-//! board that is simulated at the pins of its PHY.
+//! board that is simulated at the pins of its PHY. With runs, the core is that of the Verilog in both.
 
 use std::io::{self, ErrorKind};
 use std::net::{SocketAddr, SocketAddrV4, UdpSocket};
@@ -29,8 +29,10 @@ pub struct NetworkService {
     pub listen: SocketAddrV4,
     /// Core of the device.
     pub config: Config,
-    /// Whether the device is the software model, and not a board at its pins.
+    /// Whether the device has the software model of the link, and not the pins of a board.
     pub is_fast: bool,
+    /// Whether the core has runs, for a mesh that lives.
+    pub has_runs: bool,
     /// Faults between host and device.
     pub faults: NetworkFaults,
 }
@@ -83,10 +85,11 @@ pub fn serve_network(
     let socket = UdpSocket::bind(service.listen).map_err(refused)?;
     socket.set_nonblocking(true)?;
     let address = socket.local_addr()?;
-    let device: Box<dyn OnNetwork> = if service.is_fast {
-        Box::new(FastDevice::new(service.config, address.port())?)
-    } else {
-        Box::new(NetworkBoard::new(service.config)?)
+    let device: Box<dyn OnNetwork> = match (service.is_fast, service.has_runs) {
+        (true, false) => Box::new(FastDevice::new(service.config, address.port())?),
+        (true, true) => Box::new(FastDevice::living(service.config, address.port())?),
+        (false, false) => Box::new(NetworkBoard::new(service.config)?),
+        (false, true) => Box::new(NetworkBoard::living(service.config)?),
     };
     let has_faults = service.faults != NetworkFaults { seed: service.faults.seed, ..NetworkFaults::default() };
     let mut server = Server {

@@ -4,8 +4,6 @@ use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use incircle_protocol::Config;
-
 use super::tap::Tap;
 use crate::error::SimError;
 use crate::network::NetworkBoard;
@@ -48,14 +46,20 @@ pub enum TapError {
     Board(#[from] SimError),
 }
 
-/// Serves a board with this core at the TAP device `name` until `stops` is set, and calls `ready` as soon as the board
-/// takes frames. While nothing passes the cable and no session is open, the simulation stands still.
+/// Serves a board at the TAP device `name` until `stops` is set, and calls `ready` as soon as the board takes frames.
+/// `board` makes the board once the TAP device is open. While nothing passes the cable and no session is open, the
+/// simulation stands still.
 ///
 /// # Errors
 /// [`TapError`]: the system refuses the TAP device or takes it away, or the board is not part of this build.
-pub fn serve_tap(name: &str, config: Config, stops: &AtomicBool, ready: impl FnOnce()) -> Result<TapFigures, TapError> {
+pub fn serve_tap(
+    name: &str,
+    board: impl FnOnce() -> Result<NetworkBoard, SimError>,
+    stops: &AtomicBool,
+    ready: impl FnOnce(),
+) -> Result<TapFigures, TapError> {
     let tap = Tap::open(name).map_err(|source| TapError::Open { name: name.to_owned(), source })?;
-    let mut board = NetworkBoard::new(config)?;
+    let mut board = board()?;
     let mut figures = TapFigures::default();
     ready();
     while !stops.load(Ordering::Relaxed) {

@@ -5,6 +5,7 @@ use crate::serve::service;
 use incircle::living::{Error as Refusal, Location};
 use incircle::{Device, Error, ErrorKind, LivingMesh, Point, Triangulation};
 use incircle_protocol::{RunKind, FULL, SMALL, TINY};
+use incircle_sim::network::NetworkBoard;
 use incircle_sim::{SimDevice, SimError, SimTransport};
 use incircle_testkit::SplitMix64;
 use std::process::Command;
@@ -101,7 +102,7 @@ fn agrees_over_serial(name: &str, arguments: &[&str], slow: u32, rounds: usize) 
     let link = folder.join("board");
     let mut command = service::program(&["serve", "--living", "--slow", &slow.to_string()]);
     command.args(arguments).arg("--link").arg(&link);
-    let said = agrees(command, &format!("serial:{}?slow={slow}", link.display()), rounds);
+    let said = agrees(command, rounds);
     std::fs::remove_dir_all(folder).expect("a folder of our own");
     said
 }
@@ -112,15 +113,38 @@ fn random_changes_at_the_pins_of_a_card_agree_with_the_processor() {
     let folder = std::env::temp_dir().join(format!("incircle-living-card-{}", std::process::id()));
     let mut command = service::program(&["serve-pcie", "--living", "--fault", "short-read=0.1,short-write=0.1"]);
     command.arg("--dir").arg(&folder);
-    agrees(command, &format!("pcie:{}", folder.display()), 12);
+    agrees(command, 12);
     std::fs::remove_dir(folder).expect("an empty folder");
 }
 
-/// Runs random changes and questions on the device that a command serves at this address, and returns what the command
-/// says in the end.
-fn agrees(command: Command, address: &str, rounds: usize) -> String {
+/// The same core behind the model of the UDP link, on a network that loses and spoils datagrams.
+#[test]
+fn random_changes_over_a_bad_network_agree_with_the_processor() {
+    let faults = "loss=0.05,double=0.05,swap=0.05,flip=0.02,seed=4";
+    let said = agrees(service::program(&["serve-udp", "--living", "--fast", "--fault", faults]), 30);
+    assert!(!said.contains(" 0 faults"), "{said}");
+}
+
+/// The Verilog of the UDP link and of the core with runs behind it, at the pins of the PHY.
+#[test]
+fn random_changes_at_the_pins_of_a_device_on_the_network_agree_with_the_processor() {
+    agrees(service::program(&["serve-udp", "--living"]), 12);
+}
+
+/// The same pins at the end of a network that loses and doubles datagrams.
+#[test]
+fn random_changes_at_these_pins_over_a_bad_network_agree_with_the_processor() {
+    let faults = "loss=0.03,double=0.03,swap=0.03,seed=5";
+    let said = agrees(service::program(&["serve-udp", "--living", "--fault", faults]), 12);
+    assert!(!said.contains(" 0 faults"), "{said}");
+}
+
+/// Runs random changes and questions on the device that a command serves at the address in its first line, and returns
+/// what the command says in the end.
+fn agrees(command: Command, rounds: usize) -> String {
     let (child, line) = service::start(command);
-    assert!(line.starts_with("ready: "), "{line}");
+    assert!(line.starts_with("ready: ") && line.contains("with runs"), "{line}");
+    let address = line.trim_end().split("open ").nth(1).expect("an address");
     let mut device = Device::open(address).expect("the device");
     let mut session = device.session().expect("a session");
     let mut mesh = session.living().expect("the core has enough runs");
@@ -178,8 +202,11 @@ fn cores_with_runs_that_were_not_built_are_refused_with_a_sentence() {
     assert!(SimDevice::has_living(SMALL));
     for config in [TINY, FULL] {
         assert!(!SimDevice::has_living(config));
-        let error = SimDevice::living(config).expect_err("not built");
-        assert!(matches!(error, SimError::NoRuns { .. }), "{error}");
-        assert!(error.to_string().contains("with runs: choose small, or the back end clock"), "{error}");
+        let board = NetworkBoard::living(config).map(|_| ());
+        for missing in [SimDevice::living(config).map(|_| ()), board] {
+            let error = missing.expect_err("not built");
+            assert!(matches!(error, SimError::NoRuns { .. }), "{error}");
+            assert!(error.to_string().contains("with runs: choose small, or the back end clock"), "{error}");
+        }
     }
 }

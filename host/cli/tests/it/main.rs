@@ -14,6 +14,8 @@ mod backend {
     mod sim;
     #[cfg(feature = "sim")]
     mod sim_living;
+    #[cfg(feature = "sim")]
+    mod udp_living;
 }
 
 mod commands {

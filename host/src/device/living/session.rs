@@ -51,6 +51,8 @@ pub(super) enum Held {
 ///   room, and leaves the mesh as it was.
 /// - **Faults.** After an error of the link or a wrong answer, the mesh on the device is not known, and all further
 ///   calls fail: open the device again.
+/// - **Pauses.** A device at a serial port or on a network forgets its mesh if it hears nothing for two seconds, or for
+///   the silence that its greeting names. A call that needs this mesh then fails with an error of the link.
 pub struct LivingSession<'d> {
     pub(super) device: LivingDevice<'d>,
     pub(super) choices: Choices,

@@ -12,6 +12,7 @@ use super::fault::SerialFault;
 use super::sender::Sender;
 use crate::transports::is_begun_as;
 use crate::transports::read_out::ReadOut;
+use crate::transports::sendable::check_sendable;
 use crate::transports::words::words_of;
 
 /// Most words of payload of a range: with the header they fill three frames.
@@ -315,16 +316,8 @@ const _: () =
 
 impl Exchange {
     fn of(command: &Command<impl AsRef<[u32]>>, layout: Layout) -> Result<Self, SerialFault> {
+        check_sendable(command, layout, RUN_WORDS).map_err(SerialFault::Command)?;
         let again = match command.bare() {
-            Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
-                return Err(SerialFault::Command("the points of this command are laid out for another device"));
-            }
-            Command::Run { .. } if command.points().len() as u64 != command.point_words(layout) => {
-                return Err(SerialFault::Command("the items of this command are laid out for another device"));
-            }
-            Command::Run { .. } if command.payload_words(layout) > RUN_WORDS as u64 => {
-                return Err(SerialFault::Command("the answer to this run is longer than the serial link takes"));
-            }
             // A question may be asked again. A change that was made is made no second time: its outcome says so.
             Command::Run { .. } => command.bare().map(|()| command.points().to_vec()),
             // Inserting no points brings the report of the points before them once more.

@@ -11,7 +11,7 @@ use incircle_protocol::{answer_head, Command, Identity, Opcode, UdpGreeting, IDE
 use super::fault::UdpFault;
 use super::reader::Reader;
 use super::sender::Sender;
-use super::unit::Answer;
+use super::unit::{Answer, MOST_PAYLOAD};
 use crate::transports::round_trip::{RoundTrip, TripBounds};
 use crate::transports::{is_begun_as, Capabilities};
 
@@ -146,6 +146,7 @@ impl UdpProtocol {
             jobs_ahead: JOBS_AHEAD,
             any_order: true,
             kept_words: UDP_KEPT_WORDS,
+            run_words: MOST_PAYLOAD,
             ..Capabilities::default()
         }
     }

@@ -11,8 +11,10 @@ use super::sender::Sender;
 use super::unit::{Answer, State, Unit};
 
 /// Number of datagrams or of answers from which on a session takes no new job: half of the numbers that there are. The
-/// jobs under way may use the other half.
+/// jobs under way, and the mesh that stands, may use the other half.
 const MOST_NUMBERS: u64 = 1 << 31;
+/// Number from which on a session takes no command more, a million before the last one.
+const LAST_NUMBERS: u64 = u32::MAX as u64 - (1 << 20);
 
 /// Once this share of units (of 256) lost an answer, the host sends one job at a time; below [`CLEAN`] it sends ahead
 /// again. An answer that is lost while the next job is under way costs a whole job. The two shares are far apart, so
@@ -162,6 +164,9 @@ impl Reader {
                 }
                 return Ok(());
             };
+            if unit.waits(question) {
+                return Ok(());
+            }
             let words = ANSWER_HEAD_WORDS + unit.questions.get(question).map_or(0, |question| question.words);
             if self.awaited.words() > 0 && self.awaited.words() + words > self.window {
                 self.is_filled = true;
@@ -175,9 +180,14 @@ impl Reader {
         }
     }
 
+    /// Number of datagrams or of answers of the session so far, whichever is larger.
+    fn used(&self, sender: &Sender) -> u64 {
+        sender.cut().max(self.awaited.asked())
+    }
+
     /// Whether the session has used so many numbers that jobs wait for another one.
     fn is_used_up(&self, sender: &Sender) -> bool {
-        sender.cut().max(self.awaited.asked()) >= self.most_numbers
+        self.used(sender) >= self.most_numbers
     }
 
     /// Whether the session has used so many numbers that another one should be opened, and nothing is under way in it.
@@ -204,6 +214,11 @@ impl Reader {
         }
         if !unit.needs_no_memory() && unit.needs != self.memory {
             return Err(UdpFault::Command("the points that this command needs are no longer in the device"));
+        }
+        if self.used(sender) >= LAST_NUMBERS {
+            return Err(UdpFault::Command(
+                "the session has used up its 4,294,967,295 numbers: open the device again, and give it all points anew",
+            ));
         }
         let is_anew = unit.begins_anew();
         let number = unit.number;

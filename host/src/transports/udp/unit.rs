@@ -6,10 +6,12 @@ use incircle_protocol::{answer_head, Command, Layout, ANSWER_HEAD_WORDS as HEAD,
 
 use super::fault::UdpFault;
 use crate::transports::read_out::ReadOut;
+use crate::transports::sendable::check_sendable;
 use crate::transports::{is_begun_as, AnswerHead};
 
-/// Most words of payload of an answer in one datagram.
-const MOST_PAYLOAD: usize = MAX_DATAGRAM_WORDS - HEAD;
+/// Most words of payload of an answer in one datagram. So long is the answer to a run at most: a run is asked for as a
+/// whole.
+pub(super) const MOST_PAYLOAD: usize = MAX_DATAGRAM_WORDS - HEAD;
 
 /// The state of a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,14 +114,7 @@ impl Unit {
             payload.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
             payload.resize(words, 0);
             self.answers.push(([0; HEAD], payload));
-            match command {
-                Command::Insert { .. } if command.points().len() as u64 != command.point_words(layout) => {
-                    return Err(UdpFault::Command("the points of this command are laid out for another device"));
-                }
-                // A question is sent again if its answer is lost, and would change the mesh twice.
-                Command::Run { .. } => return Err(UdpFault::Command("the UDP link takes no runs")),
-                _ => {}
-            }
+            check_sendable(command, layout, MOST_PAYLOAD).map_err(UdpFault::Command)?;
             match ReadOut::of(command.bare(), layout) {
                 Some(read_out) => parts_of(index, &read_out, &mut self.questions)?,
                 None => self.questions.push(Question::new(index, None, words, 0)),
@@ -139,6 +134,14 @@ impl Unit {
     /// Index of the next question that is to be sent.
     pub fn due(&self) -> Option<usize> {
         self.questions.iter().position(|question| question.state == State::Due)
+    }
+
+    /// Whether a question that is due must wait for an answer: a run waits for all answers before it, and all behind a
+    /// run waits for that of the run. So a run that is sent again meets the mesh that it left.
+    pub fn waits(&self, question: usize) -> bool {
+        let is_run = |question: &Question| matches!(self.commands.get(question.command), Some(Command::Run { .. }));
+        let asks_run = self.questions.get(question).is_some_and(is_run);
+        self.questions.iter().any(|other| other.state == State::Asked && (asks_run || is_run(other)))
     }
 
     /// The command that asks this question, now.

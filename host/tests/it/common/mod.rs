@@ -5,6 +5,7 @@ pub mod board;
 pub mod card;
 pub mod heap;
 pub mod liar;
+pub mod living;
 pub mod mock;
 pub mod network;
 pub mod rig;

@@ -94,12 +94,24 @@ pub struct VirtualNetwork {
     pub to_strangers: u64,
     /// Whether the cable is pulled.
     pub is_cut: bool,
+    /// Number of the one datagram to the host that is lost, if any, and number of those that were sent.
+    pub loses: Option<u64>,
+    pub to_host: u64,
+    /// Number of datagrams to the host after which the device forgets its session.
+    forgets_at: Option<u64>,
 }
 
 impl VirtualNetwork {
     /// Connects a host to a device; each round trip takes `trip` besides the time on the wire.
     pub fn new(faults: &NetworkFaults, trip: Duration) -> Self {
         let core = Instantly::of(FULL).expect("a named configuration");
+        let identity = core.identity();
+        Self::around(Core::Paced(Box::new(Paced { core, every: 15, left: 0 })), identity, faults, trip)
+    }
+
+    /// Connects a host to a device with runs.
+    pub fn living(faults: &NetworkFaults, trip: Duration) -> Self {
+        let core = Instantly::of(FULL).expect("a named configuration").with_runs();
         let identity = core.identity();
         Self::around(Core::Paced(Box::new(Paced { core, every: 15, left: 0 })), identity, faults, trip)
     }
@@ -124,6 +136,9 @@ impl VirtualNetwork {
             stranger: None,
             to_strangers: 0,
             is_cut: false,
+            loses: None,
+            to_host: 0,
+            forgets_at: None,
         }
     }
 
@@ -155,6 +170,11 @@ impl VirtualNetwork {
             self.step();
         }
         panic!("the host got only {} datagrams", self.protocol.statistics().received);
+    }
+
+    /// Makes the device forget its session behind the next datagram that it sends to the host.
+    pub fn forgets_soon(&mut self) {
+        self.forgets_at = Some(self.to_host + 1);
     }
 
     /// Lets this time pass without the host.
@@ -200,9 +220,15 @@ impl VirtualNetwork {
             let Some((to, datagram)) = self.board.give() else { break };
             if to.ip() != self.host.ip() {
                 self.to_strangers += 1;
-            } else if !self.is_cut {
-                self.up.send(self.now, to, &datagram);
+            } else {
+                if !self.is_cut && self.loses != Some(self.to_host) {
+                    self.up.send(self.now, to, &datagram);
+                }
+                self.to_host += 1;
             }
+        }
+        if self.forgets_at.take_if(|at| *at <= self.to_host).is_some() {
+            self.board.age(u64::from(LINK.clock_hz) * u64::from(LINK.silence_ms));
         }
         let mut has_come = false;
         while let Some((to, datagram)) = self.up.next(self.now) {
@@ -272,6 +298,11 @@ impl Transport for VirtualTransport {
 
     fn capabilities(&self) -> Capabilities {
         self.network.borrow().protocol.capabilities()
+    }
+
+    fn repeats(&self) -> u64 {
+        let UdpStatistics { repeated, restarted, .. } = self.network.borrow().statistics();
+        repeated + restarted
     }
 }
 

@@ -1,6 +1,8 @@
 //! The device behind a link: it takes and gives words, one clock at a time.
 
-use incircle_protocol::{Config, Identity, CORE_COORD_BITS, CORE_VERSION, FEATURE_SHORT_IDS, MAGIC, PROTOCOL_VERSION};
+use incircle_protocol::{
+    Config, Identity, CORE_COORD_BITS, CORE_RUNS, CORE_VERSION, FEATURE_SHORT_IDS, MAGIC, PROTOCOL_VERSION,
+};
 
 use crate::{ChipModel, ClockModel, CommandModel, Inputs, Outputs};
 
@@ -34,6 +36,7 @@ pub struct Passed {
 pub struct Instantly {
     model: CommandModel,
     parameters: (u32, u32, u32),
+    has_runs: bool,
     answer: Option<u32>,
 }
 
@@ -44,7 +47,13 @@ impl Instantly {
     /// The errors of [`CommandModel::new`].
     pub fn new(coord_bits: u32, capacity: u32, ring: u32) -> Result<Self, crate::ModelError> {
         let model = CommandModel::new(coord_bits, capacity, ring)?;
-        Ok(Self { model, parameters: (coord_bits, capacity, ring), answer: None })
+        Ok(Self { model, parameters: (coord_bits, capacity, ring), has_runs: false, answer: None })
+    }
+
+    /// The same device with the runs that a core with runs has.
+    #[must_use]
+    pub fn with_runs(self) -> Self {
+        Self { model: self.model.with_core_runs(), has_runs: true, ..self }
     }
 
     /// A device with the parameters of a core.
@@ -58,7 +67,9 @@ impl Instantly {
     /// The identity of the device.
     pub fn identity(&self) -> Identity {
         let (coord_bits, points, ring) = self.parameters;
-        Identity { coord_bits, ..core_identity(Config { name: "", points, ring, contexts: 1, engines: 1 }) }
+        let core = core_identity(Config { name: "", points, ring, contexts: 1, engines: 1 });
+        let runs = if self.has_runs { CORE_RUNS } else { 0 };
+        Identity { coord_bits, features: core.features | runs, ..core }
     }
 
     /// The answer word that is offered now.
@@ -75,7 +86,7 @@ impl WordDevice for Instantly {
     fn reset(&mut self) {
         let (coord_bits, capacity, ring) = self.parameters;
         if let Ok(fresh) = Self::new(coord_bits, capacity, ring) {
-            *self = fresh;
+            *self = if self.has_runs { fresh.with_runs() } else { fresh };
         }
     }
 

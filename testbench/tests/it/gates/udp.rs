@@ -39,6 +39,14 @@ fn devices_with_a_udp_link_pass_lint_and_synthesis() {
 }
 
 #[test]
+fn a_device_with_runs_passes_lint_and_synthesis() {
+    for pins in [UdpPins::Gmii, UdpPins::Rgmii { delay: 80, clock_delay: 80 }] {
+        let passed = gate::pass(&export::udp_top_with_runs(SMALL, DEVICE, pins, false).unwrap(), UDP_TOP_NAME);
+        assert!(passed.is_ok(), "{pins:?}: {}", passed.unwrap_err());
+    }
+}
+
+#[test]
 fn all_beside_the_core_is_small() {
     let verilog = export::udp_device(SMALL, DEVICE, "udp_device").unwrap();
     let cells = gate::cell_count(&verilog, "udp_device").unwrap();

@@ -5,7 +5,7 @@ use serde_json::Value;
 
 /// Replays `s.txt` on the processor and on this back end, compares all files, and returns the report of the second run.
 #[track_caller]
-fn compare(scratch: &Scratch, backend: &str) -> Value {
+pub fn compare(scratch: &Scratch, backend: &str) -> Value {
     scratch.run("replay s.txt -o cpu.ele --answers cpu.txt --film cpu.svg -q").ok();
     let run = format!("replay s.txt -o sim.ele --answers sim.txt --film sim.svg --backend {backend} --json");
     let run = scratch.run(&run).ok();

@@ -144,3 +144,18 @@ fn commands_that_need_the_points_in_the_device_stay_in_their_session() {
     rig.ask(&[Command::Triangles(RecordRange { first: 0, count: 4 })]);
     assert_eq!((rig.answers(1).len(), rig.sessions.len()), (1, 1));
 }
+
+#[test]
+fn a_mesh_that_stands_when_the_numbers_are_used_up_is_lost_with_a_sentence() {
+    for (used, is_left) in [((1 << 31) + 1, true), (u64::from(u32::MAX) - (1 << 20), false)] {
+        let mut rig = Rig::opened();
+        rig.ask(&[Command::Clear(Clear::one_mesh(0)), insert()]);
+        assert_eq!(rig.answers(2).len(), 2);
+        rig.protocol.sender = Sender::of_base(used);
+        rig.ask(&[Command::Triangles(RecordRange { first: 0, count: 4 })]);
+        assert!(rig.answers(1).is_empty(), "the device awaits another number");
+        let fault = rig.protocol.check();
+        let is_used_up = matches!(fault, Err(UdpFault::Command(why)) if why.contains("used up its 4,294,967,295"));
+        assert_eq!((fault.is_ok(), is_used_up), (is_left, !is_left), "{used} numbers: {fault:?}");
+    }
+}

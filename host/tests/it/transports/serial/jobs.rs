@@ -393,10 +393,7 @@ fn a_pause_between_jobs_is_no_matter_and_one_within_a_job_is_told() {
 fn what_the_link_cannot_carry_is_refused() {
     let range = |first, count| RecordRange { first, count };
     for (command, sentence) in [
-        (
-            Command::Run { kind: RunKind::Nearest, count: 384, items: &[7; 384][..] },
-            "longer than the serial link takes",
-        ),
+        (Command::Run { kind: RunKind::Nearest, count: 384, items: &[7; 384][..] }, "longer than the link takes"),
         (Command::Run { kind: RunKind::InsertAs, count: 1, items: &[7][..] }, "laid out for another device"),
         (Command::Read(range(u32::MAX, 1)), "goes beyond the last record number"),
         (Command::Triangles(range(u32::MAX, 1)), "goes beyond the last record number"),
