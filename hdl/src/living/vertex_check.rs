@@ -83,6 +83,10 @@ pub struct VertexCheck {
     state: DFF<CheckState>,
     known: DFF<VertexCount>,
     beyond: DFF<Bit>,
+    /// The vertex on offer lies beyond the capacity; or its bit is arbitrary. Both are compared while the bit is read, in
+    /// which time neither the vertex nor `known` changes.
+    high: DFF<Bit>,
+    unknown: DFF<Bit>,
     bits: VertexBits,
     item: CheckedItem,
     is_refused: Signal<Local, Bit>,
@@ -104,13 +108,15 @@ impl VertexCheck {
 impl Logic for VertexCheck {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, known, beyond);
+        dff_setup!(self, clock, state, known, beyond, high, unknown);
         clock!(self, clock, bits, item);
         self.one.next = 1.into();
         self.asked.next = self.vertex.val().get_bits::<15>(0);
         self.wide_capacity.next = bit_cast::<32, 15>(self.capacity.val());
-        self.is_high.next = self.vertex.val() >= self.wide_capacity.val();
-        self.is_unknown.next = self.asked.val() >= self.known.q.val();
+        self.high.d.next = self.vertex.val() >= self.wide_capacity.val();
+        self.unknown.d.next = self.asked.val() >= self.known.q.val();
+        self.is_high.next = self.high.q.val();
+        self.is_unknown.next = self.unknown.q.val();
         self.is_last.next = self.asked.val() == self.known.q.val();
 
         self.refuses.next = self.state.q.val() == CheckState::Refuse;

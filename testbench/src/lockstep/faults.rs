@@ -310,8 +310,8 @@ pub const QUESTION_FAULTS: &[Fault] = &[
 /// Faults of the blocks that change a mesh that stands. The place of a fault in this list is its bit of the port
 /// `faults`.
 pub const CHANGE_FAULTS: &[Fault] = &[
-    Fault { name: "high_vertex_is_not_refused", pieces: &[piece("is_high = @;", "vertex >= wide_capacity", "1'b0")] },
-    Fault { name: "unknown_bits_are_trusted", pieces: &[piece("is_unknown = @;", "asked >= known$q", "1'b0")] },
+    Fault { name: "high_vertex_is_not_refused", pieces: &[piece("high$d = @;", "vertex >= wide_capacity", "1'b0")] },
+    Fault { name: "unknown_bits_are_trusted", pieces: &[piece("unknown$d = @;", "asked >= known$q", "1'b0")] },
     Fault {
         name: "vertex_in_use_is_not_refused",
         pieces: &[piece("is_refused = is_high | (@);", "item$is_used & (~is_unknown)", "1'b0")],
