@@ -9,7 +9,7 @@
 //! 4. After a reset no context has an item, and the counts of the queues are cleared, one a clock. No item comes
 //!    meanwhile, because the core clears its locks for 128 clocks at least.
 //!
-//! Latency: none (combinational) from `dealt` to `taken`; 1 clock from there to `launch`; 3 clocks from `ends` to
+//! Latency: none (combinational) from `dealt` to `taken`; 1 clock from there to `launch`; 2 clocks from `ends` to
 //! `launch`.
 //!
 //! Two items for context 1, of which the second waits until the first has ended:
@@ -18,9 +18,9 @@
 //! dealt.number      .  4  5  .  .  .  .  .  .  .
 //! taken           ___/^^^^^\____________________
 //! ends            _______________/^^\___________
-//! waits           ______/^^\______________/^^^^^
-//! launch.number     .  .  4  .  .  .  .  .  5  5
-//! launches        ______/^^\_________________/^^
+//! waits           ______/^^\____________/^^^^^\__
+//! launch.number     .  .  4  .  .  .  .  5  5  .
+//! launches        ______/^^\_______________/^^\__
 //! ```
 
 use super::queue_counts::QueueCounts;
@@ -56,14 +56,13 @@ pub struct ItemQueues {
     idle: DFF<ContextSet>,
     fetch1: DFF<ContextEnd>,
     fetch2: DFF<ContextEnd>,
-    /// The item that joins the line in this clock.
+    /// The item on offer before, which joins the line in this clock.
     joins: DFF<Bit>,
     joined: DFF<Launch>,
     offered: Signal<Local, Item>,
     offered_bits: Signal<Local, Bits<ITEM_BITS>>,
     pushed: Signal<Local, Launch>,
-    joined_now: Signal<Local, Launch>,
-    joined_bits: Signal<Local, Bits<LAUNCH_BITS>>,
+    pushed_bits: Signal<Local, Bits<LAUNCH_BITS>>,
     is_idle: Signal<Local, Bit>,
     meets_end: Signal<Local, Bit>,
     begins: Signal<Local, Bit>,
@@ -119,7 +118,7 @@ impl Logic for ItemQueues {
         self.of_offer.next = self.idle.q.val() >> self.wide_offer.val();
         self.is_idle.next = self.of_offer.val().get_bit(0);
         self.meets_end.next = self.ends.val().valid & (self.ends.val().context == self.dealt.val().context);
-        self.begins.next = self.dealt.val().valid & self.is_idle.val() & (!self.fetch2.q.val().valid);
+        self.begins.next = self.dealt.val().valid & self.is_idle.val() & (!self.fetch1.q.val().valid);
         self.stores.next =
             self.dealt.val().valid & (!self.is_idle.val()) & (!self.counts.is_full.val()) & (!self.meets_end.val());
         self.taken.next = self.begins.val() | self.stores.val();
@@ -142,20 +141,20 @@ impl Logic for ItemQueues {
         self.fetch2.d.next = self.fetch1.q.val();
         self.fetched_item.bits.next = self.items.read_data.val();
 
-        // One item a clock joins the line. An item out of the memory cannot wait, so the one on offer does.
-        self.pushed.next.context = self.dealt.val().context;
-        self.pushed.next.item = self.offered.val();
+        // One item a clock joins the line. An item out of the memory cannot wait, so the one on offer does. It is known
+        // late in its clock, so it joins in the next.
+        self.joins.d.next = self.begins.val() & (!self.reset.val());
+        self.joined.d.next.context = self.dealt.val().context;
+        self.joined.d.next.item = self.offered.val();
+        self.pushed.next = self.joined.q.val();
         if self.fetch2.q.val().valid {
             self.pushed.next.context = self.fetch2.q.val().context;
             self.pushed.next.item = self.fetched_item.value.val();
         }
+        self.pushed_bits.next = self.pushed.val().into();
         self.beginners.reset.next = self.reset.val();
-        self.joins.d.next = (self.fetch2.q.val().valid | self.begins.val()) & (!self.reset.val());
-        self.joined.d.next = self.pushed.val();
-        self.joined_now.next = self.joined.q.val();
-        self.joined_bits.next = self.joined_now.val().into();
-        self.beginners.push.next = self.joins.q.val();
-        self.beginners.push_data.next = self.joined_bits.val();
+        self.beginners.push.next = self.fetch2.q.val().valid | self.joins.q.val();
+        self.beginners.push_data.next = self.pushed_bits.val();
         self.beginners.pop.next = self.launches.val();
         self.first.bits.next = self.beginners.data.val();
         self.waits.next = self.beginners.valid.val();

@@ -1,10 +1,11 @@
 //! The item that begins next, in a register, with the record at which its walk begins.
 //!
 //! 1. An item is chosen while the register is empty. A vertex that goes back into the mesh ([`ReturnLine`]) comes before
-//!    the items of the queues, and such an item comes only if there is room for its part.
+//!    the items of the queues, and an item of the queues comes only if there is room for its part.
 //! 2. The item begins in a clock that the user chooses (`goes`). So nothing of the choice stands on the path from that
 //!    clock's visit to the walk that begins.
-//! 3. One item begins in two clocks at most.
+//! 3. At most one item of a change begins in two clocks. Questions begin faster: one that begins makes room for the next
+//!    at the same edge (`refills`), without which a `Locate` takes 1 % more cycles. There no vertex goes back.
 //!
 //! Latency: 1 clock from an item that waits to `is_ready`.
 //!
@@ -36,14 +37,16 @@ pub struct NextItem {
     pub launch: Signal<Out, Launch>,
     pub record: Signal<Out, TriangleId>,
     pub is_return: Signal<Out, Bit>,
-    /// The item begins at this edge; only while `is_ready`.
+    /// The item begins at this edge; only while `is_ready`. An item of the queues may take its place (`refills`).
     pub goes: Signal<In, Bit>,
+    pub refills: Signal<In, Bit>,
     ready: DFF<Bit>,
     item: DFF<Launch>,
     first: DFF<TriangleId>,
     comes_back: DFF<Bit>,
     chosen: Signal<Local, Launch>,
     takes: Signal<Local, Bit>,
+    is_open: Signal<Local, Bit>,
 }
 
 impl Logic for NextItem {
@@ -56,22 +59,26 @@ impl Logic for NextItem {
         }
         self.context_id.next = self.chosen.val().context;
         self.takes_returned.next = (!self.ready.q.val()) & self.returns.val();
-        self.takes.next = (!self.ready.q.val()) & (!self.returns.val()) & self.waits.val() & self.has_room.val();
+        self.is_open.next = (!self.ready.q.val()) | self.refills.val();
+        self.takes.next = self.is_open.val() & (!self.returns.val()) & self.waits.val() & self.has_room.val();
         self.takes_queued.next = self.takes.val();
         self.is_ready.next = self.ready.q.val();
         self.launch.next = self.item.q.val();
         self.record.next = self.first.q.val();
         self.is_return.next = self.comes_back.q.val();
 
-        if !self.ready.q.val() {
+        if self.is_open.val() {
             self.item.d.next = self.chosen.val();
             self.first.d.next = self.start_record.val();
             self.comes_back.d.next = self.returns.val();
         }
+        if self.goes.val() {
+            self.ready.d.next = false;
+        }
         if self.takes.val() | ((!self.ready.q.val()) & self.returns.val()) {
             self.ready.d.next = true;
         }
-        if self.goes.val() | self.reset.val() {
+        if self.reset.val() {
             self.ready.d.next = false;
         }
     }

@@ -214,6 +214,7 @@ impl Logic for Questions {
             & (!self.is_question.val())
             & (!self.changes.unmarks.val());
         self.walks.next = self.upcoming.is_ready.val() & self.is_question.val();
+        self.upcoming.refills.next = self.walks.val() & (!self.step.asks.val());
         self.upcoming.goes.next = self.launches.val() | (self.walks.val() & (!self.step.asks.val()));
         self.push.next.valid = self.walks.val() | (self.is_question.val() & self.step.asks.val());
         self.bundle.next = self.step.bundle.val();

@@ -181,7 +181,8 @@ impl Questions {
             }
         };
         let offer = self.offer();
-        let may_choose = self.upcoming.is_none() && self.returns.is_empty() && self.parts.has_room();
+        let is_open = self.upcoming.is_none() || asks && begun.is_some();
+        let may_choose = is_open && self.returns.is_empty() && self.parts.has_room();
         let done = self.queues.clock(offer, ends, may_choose);
         let around = Around {
             is_active: self.port.is_active(),
@@ -199,11 +200,11 @@ impl Questions {
             self.hints[context] = record;
         }
         let change = self.changes.clock(&around, &events.with_ends_of(&late), &self.items, memory);
-        self.choose(done.launched);
-        self.returns.extend(late.put_out);
         if begun.is_some() {
             self.upcoming = None;
         }
+        self.choose(done.launched);
+        self.returns.extend(late.put_out);
         let walk = begun.filter(|_| asks).map(|it| Bundle::one(Visit::walk(it.context, it.record)));
         self.visits.clock(walk.unwrap_or(asked));
         let is_over = self.parts.is_over() && (asks || events.all_rest);

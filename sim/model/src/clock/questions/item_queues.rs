@@ -24,7 +24,8 @@ pub(super) struct ItemQueues {
     waiting: Vec<VecDeque<Item>>,
     /// The items that the memory gives in this clock and in the next.
     fetched: [Option<(usize, Item)>; 2],
-    /// The item that joins the line in this clock, and the line of items that begin, each with its context.
+    /// The item on offer before, which joins the line in this clock, and the line of items that begin, each with its
+    /// context.
     joined: Option<(usize, Item)>,
     beginners: VecDeque<(usize, Item)>,
 }
@@ -48,12 +49,12 @@ impl ItemQueues {
     /// Simulates one edge, with an item on offer and a context whose item ends.
     pub(super) fn clock(&mut self, offer: Option<(usize, Item)>, ends: Option<usize>, may_launch: bool) -> Done {
         let [comes, comes_next] = self.fetched;
-        let begins = offer.filter(|&(context, _)| self.idle[context] && comes.is_none());
+        let begins = offer.filter(|&(context, _)| self.idle[context] && comes_next.is_none());
         let stores = offer.filter(|&(context, _)| {
             !self.idle[context] && self.waiting[context].len() < DEPTH && ends != Some(context)
         });
-        self.beginners.extend(self.joined.take());
-        self.joined = comes.or(begins);
+        self.beginners.extend(comes.or(self.joined));
+        self.joined = begins;
         let launched = if may_launch { self.beginners.pop_front() } else { None };
         if let Some((context, _)) = begins {
             self.idle[context] = false;

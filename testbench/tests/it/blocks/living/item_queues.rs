@@ -25,7 +25,7 @@ struct Lists {
     waiting: Vec<VecDeque<Item>>,
     /// Items that come out of the memory in the next clock, and in the one after it.
     fetched: VecDeque<Option<(usize, Item)>>,
-    /// The item that joins the line in the next clock, and the line.
+    /// The item on offer that joins the line in the next clock, and the line.
     joined: Option<(usize, Item)>,
     beginners: VecDeque<(usize, Item)>,
     /// Contexts whose item has begun.
@@ -68,11 +68,12 @@ impl Lists {
         block.settle();
 
         let comes = self.fetched.pop_front().flatten();
-        let begins = dealt.is_some() && self.idle[context] && comes.is_none();
+        let comes_next = self.fetched.front().is_some_and(Option::is_some);
+        let begins = dealt.is_some() && self.idle[context] && !comes_next;
         let has_place = self.waiting[context].len() < DEPTH && ends != Some(context);
         let stores = dealt.is_some() && !self.idle[context] && has_place;
-        self.beginners.extend(self.joined.take());
-        self.joined = comes.or_else(|| dealt.filter(|_| begins));
+        self.beginners.extend(comes.or(self.joined));
+        self.joined = dealt.filter(|_| begins);
         block.expect("taken", begins || stores);
         block.expect("waits", !self.beginners.is_empty());
         block.expect("rests", self.idle.iter().all(|&idle| idle));
@@ -177,7 +178,7 @@ fn item_queues_show_the_wave_of_their_header() {
     for clock in 0..10 {
         let dealt = [(1, 4), (2, 5)].into_iter().find(|&(at, _)| at == clock).map(|(_, number)| (1, (number, 9)));
         let ends = (clock == 5).then_some(1);
-        let wants = clock == 2 || clock == 9;
+        let wants = clock == 2 || clock == 8;
         let waits_before = lists.beginners.len();
         let (launched, taken) = lists.clock(&mut block, dealt, ends, wants);
         let shown = launched.or_else(|| lists.beginners.front().copied());
