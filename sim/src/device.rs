@@ -195,8 +195,8 @@ impl SimDevice {
     /// device completes the file.
     ///
     /// # Errors
-    /// [`SimError::NotTraced`]: the device was not made by [`SimDevice::traced`]. [`SimError::Trace`]: the file cannot be
-    /// created. If the disk fills later, `send` and `receive` return the error.
+    /// [`SimError::NotTraced`]: the device was not made by [`SimDevice::traced`]. [`SimError::Trace`]: the file cannot
+    /// be created. If the disk fills later, `send` and `receive` return the error.
     pub fn trace_to(&mut self, path: impl AsRef<Path>) -> Result<(), SimError> {
         self.check_traced()?;
         Ok(self.model.trace_to(path)?)

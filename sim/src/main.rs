@@ -56,7 +56,7 @@ enum Task {
         /// Leave out the bits of the line: run the model of the serial link around the Verilated core.
         #[arg(long)]
         fast: bool,
-        /// Take the core small with runs, for a mesh that lives.
+        /// Give the core runs, for a mesh that lives; only `small` is built with them.
         #[arg(long)]
         living: bool,
         /// Smallest ratio of real time to the board's time; by default it is measured, or 50 with `--fast`.
@@ -109,11 +109,11 @@ enum Task {
         /// delay=MS, seed=N.
         #[arg(long, value_name = "SPEC", default_value = "")]
         fault: NetworkFaults,
-        /// Leave out the pins: run the software model, which has one context and no clock, or with `--living` the model
-        /// of the link around the Verilated core.
+        /// Leave out the pins: run the software model, which has one context and no clock. With `--living`, run the
+        /// software model of the link around the Verilated core.
         #[arg(long)]
         fast: bool,
-        /// Take the core small with runs, for a mesh that lives.
+        /// Give the core runs, for a mesh that lives; only `small` is built with them.
         #[arg(long)]
         living: bool,
         /// Put the board behind this TAP device of Linux instead of a UDP port: the kernel's own ARP, ICMP and UDP talk

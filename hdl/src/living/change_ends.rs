@@ -25,8 +25,9 @@ pub struct ChangeEnds {
     pub reset: Signal<In, Bit>,
     /// A run of changes is under way.
     pub runs: Signal<In, Bit>,
+    /// The events of the clock before. The context of the visit that completed then, the number of its item, and the
+    /// corner that it met.
     pub events: Signal<In, ChangeEvents>,
-    /// The context of the visit that completes, the number of its item, and the corner that the visit has met.
     pub context_id: Signal<In, ContextId>,
     pub number: Signal<In, ItemNumber>,
     pub corner: Signal<In, VertexId>,
@@ -57,7 +58,7 @@ pub struct ChangeEnds {
     /// The commits that are over and whose parts are not given.
     done: Fifo<CONTEXT_BITS, DONE_BITS>,
     first: Unpack<DoneItem, DONE_BITS>,
-    /// Vertex, number and corner of the visit that completed in the clock before, for the end of a solo insertion.
+    /// Vertex, number and corner of the visit that completed a clock before that, for the end of a solo insertion.
     last_vertex: DFF<VertexId>,
     last_number: DFF<ItemNumber>,
     last_corner: DFF<VertexId>,

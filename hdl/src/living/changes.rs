@@ -4,7 +4,7 @@
 //! ```text
 //! RunPort ----> VertexCheck --+--> ItemQueues -> launches: a context of the insertion engine starts
 //! Insert -----> LatePoints ---+                                       |
-//! PartQueue <-- ChangeEnds <--------------- events -------------------+
+//! PartQueue <-- ChangeEnds <--- LateEvents <--- events ---------------+
 //! ```
 //! 1. An item is an insertion of the insertion engine: its context walks, locks its root, grows its cavity, and hands
 //!    its ring over; the rules L1 to L10 keep the contexts apart. An attempt that aborts is retried by the engine, and

@@ -1,8 +1,8 @@
-//! The events that end items of changes, one clock after they have happened, with what [`ChangeEnds`] has to know of the
-//! visit that completed in their clock.
+//! The events that end items of changes, one clock after they have happened, with what [`ChangeEnds`] has to know of
+//! the visit that completed in their clock.
 //!
-//! 1. The events follow from a visit that completes, and settle late in their clock. What comes of them, parts and items
-//!    that begin, can wait.
+//! 1. The events follow from a visit that completes, and settle late in their clock. What comes of them can wait:
+//!    parts, items that begin, marks of vertices, and vertices that go back into the mesh.
 //! 2. `is_root`, `may_launch` and `all_rest` belong to the clock in which they are used, so they do not pass here.
 //!
 //! Latency: 1 clock.

@@ -1,11 +1,11 @@
 //! The item that begins next, in a register, with the record at which its walk begins.
 //!
-//! 1. An item is chosen while the register is empty. A vertex that goes back into the mesh ([`ReturnLine`]) comes before
-//!    the items of the queues, and an item of the queues comes only if there is room for its part.
+//! 1. An item is chosen while the register is empty. A vertex that goes back into the mesh ([`ReturnLine`]) comes
+//!    before the items of the queues, and an item of the queues comes only if there is room for its part.
 //! 2. The item begins in a clock that the user chooses (`goes`). So nothing of the choice stands on the path from that
 //!    clock's visit to the walk that begins.
-//! 3. At most one item of a change begins in two clocks. Questions begin faster: one that begins makes room for the next
-//!    at the same edge (`refills`), without which a `Locate` takes 1 % more cycles. There no vertex goes back.
+//! 3. At most one item of a change begins in two clocks. Questions begin faster: one that begins makes room for the
+//!    next at the same edge (`refills`), without which a `Locate` takes 1 % more cycles. There no vertex goes back.
 //!
 //! Latency: 1 clock from an item that waits to `is_ready`.
 //!

@@ -2,10 +2,12 @@
 //! of changes, which the insertion engine carries out.
 //!
 //! ```text
-//! words -> RunPort -> ItemQueues -> walks begin --+--> visits, to the pipeline
-//!                         ^                       |
-//!                         +-- ends -- QuestionStep <-- completed visits
-//! answer <- PartQueue <---- parts --------+
+//! words -> RunPort -> ItemQueues -> NextItem -> walks begin --+--> visits, to the pipeline
+//!                         ^             ^                     |
+//!                         |             +-- ReturnLine        |
+//!                         +-- ends -- QuestionStep <----------+-- completed visits
+//! answer <- PartQueue <---- parts ---------+
+//!                 ^------- Changes <- LateEvents <- events of the insertion engine
 //! ```
 //! 1. A context works on one item at a time, and has one visit in flight, or up to three in the search of a `Nearest`.
 //!    A visit that completes asks for the next one or two, or ends its item, or leaves both to another visit in flight.
@@ -63,7 +65,7 @@ pub struct Questions {
     pub sides: Signal<In, Sides>,
     pub nearest: Signal<In, NearVerdict>,
     pub push: Signal<Out, Push>,
-    /// The place of the item that begins, and its context.
+    /// The place and context of the item that begins; of a question, already while it waits to begin.
     pub position: Signal<Out, Position>,
     /// A run is under way; it asks questions, so that all visits are theirs; or it changes the mesh.
     pub is_active: Signal<Out, Bit>,

@@ -85,7 +85,7 @@ pub struct RunPort {
     answer: RunAnswer,
     state: DFF<RunState>,
     code: DFF<Bits<8>>,
-    /// The meaning of `code`, which many paths begin with.
+    /// `code` decoded, in registers, because many long paths begin here.
     deletes: DFF<Bit>,
     moves: DFF<Bit>,
     has_two_words: DFF<Bit>,

@@ -83,8 +83,8 @@ pub struct VertexCheck {
     state: DFF<CheckState>,
     known: DFF<VertexCount>,
     beyond: DFF<Bit>,
-    /// The vertex on offer lies beyond the capacity; or its bit is arbitrary. Both are compared while the bit is read, in
-    /// which time neither the vertex nor `known` changes.
+    /// The vertex on offer lies beyond the capacity; or its bit is arbitrary. Both are compared while the bit is read,
+    /// in which time neither the vertex nor `known` changes.
     high: DFF<Bit>,
     unknown: DFF<Bit>,
     bits: VertexBits,

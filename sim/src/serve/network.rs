@@ -1,5 +1,5 @@
 //! A device on a network, for any program that opens UDP sockets: the software model of the link and of the core, or a
-//! board that is simulated at the pins of its PHY. With runs, the core is that of the Verilog in both.
+//! board that is simulated at the pins of its PHY. A core with runs is Verilated in both cases.
 
 use std::io::{self, ErrorKind};
 use std::net::{SocketAddr, SocketAddrV4, UdpSocket};

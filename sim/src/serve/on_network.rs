@@ -1,5 +1,5 @@
-//! Devices that can be put on a network: the software model of the link, around that of the core or around the Verilated
-//! core with runs, and a board at the pins of its PHY, which needs time for each clock.
+//! Devices that can be put on a network: the software model of the link, around that of the core or around the
+//! Verilated core with runs, and a board at the pins of its PHY, which needs time for each clock.
 
 use std::net::SocketAddrV4;
 

@@ -230,6 +230,10 @@ pub const QUESTION_FAULTS: &[Fault] = &[
     },
     Fault { name: "side_1_decides_alone", pieces: &[piece("if (@) begin", "on_0 | on_1", "on_1")] },
     Fault {
+        name: "question_takes_no_place",
+        pieces: &[piece("upcoming$refills = @;", "walks & (~step$asks)", "1'b0")],
+    },
+    Fault {
         name: "weights_are_swapped",
         pieces: &[piece("low[(64'h20)+:(32)] = @;", "((e1) & 32'hffffffff)", "((e0) & 32'hffffffff)")],
     },
@@ -410,6 +414,14 @@ pub const CHANGE_FAULTS: &[Fault] = &[
             piece("record$n2 = @;", "apex_id", "record$id"),
         ],
     },
+    Fault {
+        name: "chain_meets_an_old_head",
+        pieces: &[piece("has_new_head = @;", "goes & (is_early_right != entry[32'h5])", "1'b0")],
+    },
+    Fault {
+        name: "star_is_over_too_soon",
+        pieces: &[piece("after[(64'h4a)+:(1)] = @;", "outstanding == two", "1'b1")],
+    },
     Fault { name: "chains_do_not_meet", pieces: &[piece("step$meets = @;", "store$meets", "1'b0")] },
     Fault { name: "apex_is_not_replaced", pieces: &[piece("(@ | (~best_is_left))", "verdict[(64'h0)+:(1)]", "1'b0")] },
     Fault {
@@ -442,10 +454,6 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     },
     Fault { name: "fetch_beside_a_write_counts", pieces: &[piece("| @;\n        torn3$d", "meets_write1$q", "1'b0")] },
     Fault { name: "point_of_a_move_is_not_written", pieces: &[piece("if (@) begin", "late$0$writes", "1'b0")] },
-    Fault {
-        name: "vertex_is_read_before_its_late_point",
-        pieces: &[piece("fetches$0 = pipeline$fetches$0 | @ |", "late$0$waits", "1'b0")],
-    },
     Fault {
         name: "commit_writes_beside_a_hole",
         pieces: &[piece("commits$holds$0 = @;", "holes$0$writes_next", "1'b0")],

@@ -50,7 +50,7 @@ pub struct VisitCase {
     pub is_full: Signal<In, Bit>,
     pub found: Signal<Out, Case>,
     /// In a core with changes: whether the record of a test conflicts with the point, which is known sooner than what
-    /// `verdict` says of a walk or a root of a deletion.
+    /// `verdict` says of a walk or a root of a deletion. For a test both say the same: none belongs to a deletion.
     pub test_conflicts: Vec<Signal<In, Bit>>,
     completed: DFF<Bit>,
     looked: DFF<Bit>,

@@ -1,8 +1,8 @@
 //! Collects the events that end the items of a run of changes, and says whether an item can begin.
 //!
-//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context would start, no hole
-//!    asks for a test, no context asks for a solo insertion or is at one, and no point must be written. So the queue of
-//!    visits takes one bundle a clock.
+//! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context would start, no
+//!    hole asks for a test, no context asks for a solo insertion or is at one, and no point must be written. So the
+//!    queue of visits takes one bundle a clock.
 //!
 //! Latency: none, the block is combinational.
 
@@ -23,7 +23,7 @@ pub struct ChangeView {
     pub committed: Signal<In, Committed>,
     pub solo: Signal<In, SoloProgress>,
     pub contexts: Signal<In, ContextState>,
-    /// A context that starts without an item, or with an item that it tries again.
+    /// A context that starts without an item, for the vertex that it takes.
     pub start: Signal<In, Start>,
     /// Such a context starts in this clock if the queue is free; a hole asks for a test.
     pub wishes: Signal<In, Bit>,

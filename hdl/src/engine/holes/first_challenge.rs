@@ -1,4 +1,5 @@
-//! The first test of an interval of a hole: its first vertex is the best apex so far, and the second one challenges it.
+//! Finds the first test of an interval of a hole: the first vertex between the ends of the interval is the best apex so
+//! far, and the second one is tested against it.
 //!
 //! 1. An interval with one vertex between its ends has that vertex as its apex, without a test (`is_ready`).
 //!
@@ -14,6 +15,7 @@ pub struct FirstChallenge {
     /// The hole with the ends of its interval, and the same hole with the vertices of the first test.
     pub hole: Signal<In, Hole>,
     pub after: Signal<Out, Hole>,
+    /// `is_ready` of `after`, for the state of the user.
     pub is_ready: Signal<Out, Bit>,
     best: NextPlace,
     challenger: NextPlace,

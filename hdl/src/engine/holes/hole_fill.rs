@@ -2,7 +2,8 @@
 //! of the interval and finds the ends of the next one, and then looks for the first test there.
 //!
 //! 1. A hole waits in line until those before it have got as far as a test or their end. The first in line is kept in a
-//!    register, so that it is at work in the clock after the one before it.
+//!    register, so that its work begins one clock after that of the hole
+//!    before it ends.
 //! 2. A test enters the queue of visits in a clock in which nothing else does (`pushes`). A hole that is full or flat
 //!    ends in a clock in which no other item does (`may_end`).
 //! 3. While the writer is full, no triangle is put and no hole ends.
@@ -47,7 +48,7 @@ pub struct HoleFill {
     pub asks: Signal<Out, Bit>,
     pub hole: Signal<Out, HoleOf>,
     pub pushes: Signal<In, Bit>,
-    /// The item that ends, if `ends` allows it.
+    /// The item that ends at this edge if `may_end` allows it.
     pub ending: Signal<Out, FillEnd>,
     pub may_end: Signal<In, Bit>,
     /// A triangle, or the end of a deletion, for the writer, which takes no more while `is_full`.
@@ -93,6 +94,7 @@ pub struct HoleFill {
 }
 
 impl HoleFill {
+    /// The block of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
         let bits = context_bits(config);
         Self {

@@ -1,9 +1,9 @@
 //! Joins the effects of visits of deletions with those of the attempts.
 //!
-//! 1. A test that the fill asks for enters the queue if no completed visit may ask for visits and no context would start
-//!    without an item. Items that begin wait for tests. A root may ask whatever it finds, and the attempts say so.
-//! 2. An item ends with its hole if the completed visit ends neither an attempt nor an item at the same edge, nor may
-//!    end a star.
+//! 1. A test that the fill asks for enters the queue if no completed visit may ask for visits and no context would
+//!    start without an item. Items that begin wait for tests. A root counts as a visit that may ask, whatever it finds.
+//! 2. An item ends with its hole if the completed visit ends no attempt and no item at the same edge, and cannot end a
+//!    star.
 //!
 //! Latency: none, the block is combinational.
 
@@ -32,7 +32,8 @@ pub struct HoleMerge {
     pub may_settle: Signal<In, Bit>,
     pub write: Signal<In, Write>,
     pub hole_write: Signal<In, Write>,
-    /// The fill asks for a test; a context starts without an item if the queue is free; an item would end with its hole.
+    /// The fill asks for a test; a context starts without an item if the queue is free; an item would end with its
+    /// hole.
     pub asks: Signal<In, Bit>,
     pub wishes: Signal<In, Bit>,
     pub ending: Signal<In, FillEnd>,

@@ -1,13 +1,14 @@
 //! The point of a move in place, which waits for a clock in which no visit fetches a fourth point: both use one port of
 //! the vertex memory, and a visit that meets the write is made again (M14).
 //!
-//! 1. A point waits 4 clocks at most. An item that begins may take the port first (`is_taken`). In the clock of its
-//!    last chance the point is written whatever is fetched, and no item may begin (`is_last_chance`).
+//! 1. A point is written in one of the five clocks after it has come. An item that begins may take the port first
+//!    (`is_taken`). In the clock of its last chance the point is written whatever is fetched, and no item may begin
+//!    (`is_last_chance`).
 //! 2. It is also written when the next point comes, so one place is enough. A clock in which one comes has no item that
 //!    begins.
 //! 3. The write comes 5 clocks after the end of the attempt at the latest. The first lock of the attempt is cleared 5
-//!    clocks after that end at the earliest, and who takes it then reads points 2 clocks later. So all of them read the
-//!    new point.
+//!    clocks after that end at the earliest, and a context that takes it then reads points 2 clocks later. So all of
+//!    them read the new point.
 //!
 //! Latency: a point is written 1 to 5 clocks after it has come.
 

@@ -1,8 +1,8 @@
 //! The moves of the contexts: whether the visits of a context look for its vertex and go round the star, or insert it;
 //! and the point that a move in place gives to `LatePoint`.
 //!
-//! 1. In a run of deletions all visits are those of a deletion (`finds`). In a run of moves they are until the vertex
-//!    is out of the mesh. Then the context starts again with an item that `returns`.
+//! 1. In a run of deletions all visits are those of a deletion (`finds`). In a run of moves they are so until the
+//!    vertex is out of the mesh. Then the context starts again with an item that `returns`.
 //! 2. When the last visit of a move in place completes, the point of its vertex is given (`arrival`).
 //!
 //! Latency: none from `early` to `early_finds`, 1 clock to all others.

@@ -1,4 +1,5 @@
-//! The interval that comes after the apex of one is known, up to its first test ([`FirstChallenge`](super::FirstChallenge)).
+//! Finds the next interval of a hole when the apex of the last one is known. [`FirstChallenge`](super::FirstChallenge)
+//! then finds the first test of that interval.
 //!
 //! 1. The interval before the apex comes first, then the one behind it, which waits meanwhile; then one that waits. An
 //!    interval without a vertex between its ends is none.
@@ -44,6 +45,7 @@ pub struct NextInterval {
 }
 
 impl NextInterval {
+    /// The block of a configuration, which must be a valid one.
     pub fn new(config: Config) -> Self {
         let next = || NextPlace::new(config);
         Self { after_i: next(), after_apex: next(), after_end: next(), after_first: next(), ..Self::default() }

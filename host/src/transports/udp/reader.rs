@@ -13,7 +13,8 @@ use super::unit::{Answer, State, Unit};
 /// Number of datagrams or of answers from which on a session takes no new job: half of the numbers that there are. The
 /// jobs under way, and the mesh that stands, may use the other half.
 const MOST_NUMBERS: u64 = 1 << 31;
-/// Number from which on a session takes no command more, a million before the last one.
+/// Number of datagrams or of answers from which on a session takes no command that needs its mesh: a million below the
+/// largest one.
 const LAST_NUMBERS: u64 = u32::MAX as u64 - (1 << 20);
 
 /// Once this share of units (of 256) lost an answer, the host sends one job at a time; below [`CLEAN`] it sends ahead

@@ -9,8 +9,8 @@ use crate::transports::read_out::ReadOut;
 use crate::transports::sendable::check_sendable;
 use crate::transports::{is_begun_as, AnswerHead};
 
-/// Most words of payload of an answer in one datagram. So long is the answer to a run at most: a run is asked for as a
-/// whole.
+/// Most words of payload of an answer in one datagram. The answer to a run may have no more, because a run cannot be
+/// asked for in parts.
 pub(super) const MOST_PAYLOAD: usize = MAX_DATAGRAM_WORDS - HEAD;
 
 /// The state of a question.
@@ -109,12 +109,12 @@ impl Unit {
         const NO_ROOM: UdpFault = UdpFault::Command("there is no memory for an answer of this length");
         (self.answers, self.questions) = (Vec::new(), Vec::new());
         for (index, command) in self.commands.iter().enumerate() {
+            check_sendable(command, layout, MOST_PAYLOAD).map_err(UdpFault::Command)?;
             let words = usize::try_from(command.payload_words(layout)).map_err(|_| NO_ROOM)?;
             let mut payload = Vec::new();
             payload.try_reserve_exact(words).map_err(|_| NO_ROOM)?;
             payload.resize(words, 0);
             self.answers.push(([0; HEAD], payload));
-            check_sendable(command, layout, MOST_PAYLOAD).map_err(UdpFault::Command)?;
             match ReadOut::of(command.bare(), layout) {
                 Some(read_out) => parts_of(index, &read_out, &mut self.questions)?,
                 None => self.questions.push(Question::new(index, None, words, 0)),
@@ -136,8 +136,8 @@ impl Unit {
         self.questions.iter().position(|question| question.state == State::Due)
     }
 
-    /// Whether a question that is due must wait for an answer: a run waits for all answers before it, and all behind a
-    /// run waits for that of the run. So a run that is sent again meets the mesh that it left.
+    /// Whether a question that is due must wait for an answer: a run waits for all answers before it, and all later
+    /// questions wait for the answer to the run. So a run that is sent again finds the mesh as its first copy left it.
     pub fn waits(&self, question: usize) -> bool {
         let is_run = |question: &Question| matches!(self.commands.get(question.command), Some(Command::Run { .. }));
         let asks_run = self.questions.get(question).is_some_and(is_run);

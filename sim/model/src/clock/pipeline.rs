@@ -162,7 +162,9 @@ fn judge(done: &mut Completion, wires: &Wires, memory: &Memory, defect: Option<D
             (conflict, sides[lowest] >= 0, record.n[lowest])
         }
     };
-    done.falls_onto_corner = ghost.is_none() && r.contains(&p);
+    let corner = r.iter().position(|&corner| corner == p).filter(|_| ghost.is_none());
+    done.falls_onto_corner = corner.is_some();
+    done.corner = corner.map_or(0, |slot| record.v[slot]);
     done.turn = sides[2].signum() as i32;
     done.conflict = conflict && !done.is_free;
     (done.located, done.walk_next) = (located, walk_next);

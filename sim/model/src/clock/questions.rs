@@ -128,13 +128,13 @@ impl Questions {
         Some(Launch { context, item, record, stores, returns })
     }
 
-    /// Chooses the item that begins next, if there is none: a vertex that goes back into the mesh, or else the first
-    /// item in the line if there is room for its part.
+    /// Chooses the item that begins next, where there is room for one: the first item in the line, which comes only if
+    /// no vertex waits to go back into the mesh, or else such a vertex.
     fn choose(&mut self, launched: Option<(usize, Item)>) {
         if let Some((context, item)) = launched {
             self.items[context] = item;
             self.upcoming = Some(Upcoming { context, item, record: self.hints[context], returns: false });
-        } else if self.upcoming.is_none() {
+        } else {
             self.upcoming = self.returns.pop_front().map(|context| {
                 let item = Item { place: self.items[context].target, ..self.items[context] };
                 Upcoming { context, item, record: self.hints[context], returns: true }
@@ -203,7 +203,9 @@ impl Questions {
         if begun.is_some() {
             self.upcoming = None;
         }
-        self.choose(done.launched);
+        if is_open {
+            self.choose(done.launched);
+        }
         self.returns.extend(late.put_out);
         let walk = begun.filter(|_| asks).map(|it| Bundle::one(Visit::walk(it.context, it.record)));
         self.visits.clock(walk.unwrap_or(asked));

@@ -165,11 +165,7 @@ impl ClockModel {
             context,
             vertex: self.memory.point_id[context],
             early: None,
-            duplicate: duplicate.map(|done| {
-                let place = self.memory.position[context];
-                let is_met = |&v: &u32| v != wires.infinite && self.memory.vertex(v) == place;
-                done.record.v.into_iter().find(is_met).unwrap_or(0)
-            }),
+            duplicate: duplicate.map(|done| done.corner),
         };
         let ends = wires.outcome.filter(|outcome| outcome.commit.is_some() || outcome.duplicate).map(|outcome| {
             let finds = wires.finds;

@@ -155,9 +155,10 @@ pub(super) struct Completion {
     /// Whether the record conflicts with the context's point.
     pub conflict: bool,
     /// Whether the record holds the point, which only a solo insertion asks; and whether the point equals one of the
-    /// record's vertices.
+    /// record's vertices, and which, as the visit has read them.
     pub located: bool,
     pub falls_onto_corner: bool,
+    pub corner: u32,
     /// The record at which a walk goes on.
     pub walk_next: u32,
     /// The sign of `orient2d(r[0], r[1], p)`.

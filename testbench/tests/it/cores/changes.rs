@@ -53,7 +53,7 @@ fn cores_with_a_broken_block_of_changes_are_caught() {
     assert!(first_mismatch(pair(&[]), CROWD, 60).is_none(), "the sound core equals its model");
     let mut missed = Vec::new();
     for Fault { name, .. } in CHANGE_FAULTS {
-        match first_mismatch(pair(&[name]), CROWD, 8000) {
+        match first_mismatch(pair(&[name]), CROWD, 1500) {
             Some((number, mismatch)) => println!("{name}: caught in script {number}, at port {}", mismatch.port),
             None => missed.push(name),
         }

@@ -1,5 +1,5 @@
-//! Random scripts of `InsertAs`, `Delete`, `Move`, `Insert` and questions for a core with runs beside its model by clock,
-//! and beside the model by commands, which gives the parts and the meshes.
+//! Random scripts of `InsertAs`, `Delete`, `Move`, `Insert` and questions for a core with runs beside its model by
+//! clock, and beside the model by commands, which gives the parts and the meshes.
 
 use incircle_model::CommandModel;
 use incircle_protocol::{
@@ -25,7 +25,7 @@ pub struct Rig {
     /// The place of each vertex that is in the mesh, and the number of ids in use.
     living: BTreeMap<u32, u32>,
     arrived: u32,
-    /// Parts by their outcome; in place 15, runs with a vertex or a place twice.
+    /// Number of parts with each outcome; entry 15 counts the runs that name a vertex or a place twice.
     pub seen: [usize; 16],
 }
 

@@ -140,7 +140,8 @@ fn a_fault_of_any_frame_leaves_no_trace() {
     }
 }
 
-/// Ranges are asked for in parts, and lost parts again. The parts of each form are the vertices that whole records have.
+/// Ranges are asked for in parts, and lost parts again. The parts of each form are the vertices that whole records
+/// have.
 #[test]
 fn parts_of_an_answer_fit_together_in_every_form() {
     let ask =

@@ -59,7 +59,7 @@ fn faults_of_the_network_leave_no_trace_in_the_mesh() {
     }
 }
 
-/// The answer to a change is lost, whichever datagram of it is. The change is made once.
+/// Loses each datagram to the host in turn. Whichever it is, each change is made once.
 #[test]
 fn a_change_whose_answer_is_lost_is_made_once() {
     let (network, device) = connect("", 3);

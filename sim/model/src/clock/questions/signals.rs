@@ -37,8 +37,8 @@ pub(in super::super) struct ItemEnd {
     pub early: Option<Outcome>,
 }
 
-/// The events of the insertion engine at an edge. The blocks of runs take note of those that end items, and of those of
-/// vertices, a clock later.
+/// The events of the insertion engine at an edge. The blocks of runs see the events that end items or that
+/// take vertices one clock later.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in super::super) struct Events {
     /// The completed visit ends the item of its context: its attempt hands its ring over, or a vertex has the point.
