@@ -7,6 +7,19 @@ use crate::ethernet::{RgmiiIn, RgmiiOut};
 use crate::top::{udp_wrapper, ChipParts, LivingCore, UdpPins, UdpTop, UDP_TOP_NAME};
 use crate::udp::{UdpDevice, UdpLink, UdpParameters};
 
+/// The Verilog of a block whose FIFO for answers has the size for a configuration ([`answer_pointer_bits`]), which is a
+/// parameter of the block's type.
+macro_rules! with_answers_of {
+    ($config:expr, $block:ident::$new:ident($($argument:expr),*), $name:expr) => {
+        match answer_pointer_bits($config) {
+            8 => connected($block::<8>::$new($($argument),*)?, $name),
+            12 => connected($block::<12>::$new($($argument),*)?, $name),
+            13 => connected($block::<13>::$new($($argument),*)?, $name),
+            _ => connected($block::<14>::$new($($argument),*)?, $name),
+        }
+    };
+}
+
 /// The whole Verilog of a core, or of a chip of several engines, behind a UDP link: the device, and around it the ANSI
 /// wrapper [`UDP_TOP_NAME`](crate::top::UDP_TOP_NAME) with these pins of a PHY.
 ///
@@ -27,12 +40,7 @@ pub fn udp_top(
             let inside = udp_device(config, parameters, parts.link)? + &engines(config, parts.chip)?;
             return Ok(inside + &pin_blocks(pins)? + &parts.udp(pins));
         }
-        let inside = match answer_pointer_bits(config) {
-            8 => connected(UdpTop::<8>::new(config, parameters)?, &device)?,
-            12 => connected(UdpTop::<12>::new(config, parameters)?, &device)?,
-            13 => connected(UdpTop::<13>::new(config, parameters)?, &device)?,
-            _ => connected(UdpTop::<14>::new(config, parameters)?, &device)?,
-        };
+        let inside = with_answers_of!(config, UdpTop::new(config, parameters), &device)?;
         Ok(inside + &pin_blocks(pins)? + &udp_wrapper(&device, pins, with_probe))
     })
 }
@@ -54,12 +62,7 @@ pub fn udp_top_with_runs(
         let names = [format!("{UDP_TOP_NAME}_link"), format!("{UDP_TOP_NAME}_core")];
         let parts = ChipParts { link: &names[0], chip: &names[1], engines: 1, with_probe };
         let core = connected(LivingCore::new(config)?, parts.chip)?;
-        let link = match answer_pointer_bits(config) {
-            8 => connected(UdpDevice::<8>::with_runs(config, parameters)?, parts.link)?,
-            12 => connected(UdpDevice::<12>::with_runs(config, parameters)?, parts.link)?,
-            13 => connected(UdpDevice::<13>::with_runs(config, parameters)?, parts.link)?,
-            _ => connected(UdpDevice::<14>::with_runs(config, parameters)?, parts.link)?,
-        };
+        let link = with_answers_of!(config, UdpDevice::with_runs(config, parameters), parts.link)?;
         Ok(link + &core + &pin_blocks(pins)? + &parts.udp(pins))
     })
 }
@@ -80,12 +83,7 @@ fn pin_blocks(pins: UdpPins) -> Result<String, ExportError> {
 /// # Errors
 /// If a parameter is out of range, or the design is not fit for export.
 pub fn udp_device(config: Config, parameters: UdpParameters, name: &str) -> Result<String, ExportError> {
-    match answer_pointer_bits(config) {
-        8 => connected(UdpDevice::<8>::new(config, parameters)?, name),
-        12 => connected(UdpDevice::<12>::new(config, parameters)?, name),
-        13 => connected(UdpDevice::<13>::new(config, parameters)?, name),
-        _ => connected(UdpDevice::<14>::new(config, parameters)?, name),
-    }
+    with_answers_of!(config, UdpDevice::new(config, parameters), name)
 }
 
 /// Number of bits of a pointer of the FIFO between core and UDP link. The FIFO holds the mesh of all points of the

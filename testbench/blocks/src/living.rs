@@ -4,8 +4,8 @@ use incircle_protocol::{Config, FULL, TINY};
 
 use crate::exported::block;
 use incircle_hdl::living::{
-    ChangeEnds, ItemQueues, LatePoints, NearSearch, PartQueue, QuestionStep, Questions, ReturnLine, RunGate, RunPort,
-    StandingView, VertexCheck,
+    ChangeEnds, ItemQueues, LatePoints, NearSearch, NextItem, PartQueue, QuestionStep, Questions, ReturnLine, RunGate,
+    RunPort, StandingView, VertexCheck,
 };
 
 /// Name of the root module and Verilog of each block.
@@ -15,6 +15,7 @@ pub(crate) fn blocks() -> Vec<(String, String)> {
         block(ItemQueues::new(TINY), "living_item_queues_2"),
         block(ItemQueues::new(most_contexts), "living_item_queues_24"),
         block(NearSearch::new(most_contexts), "living_near_search"),
+        block(NextItem::default(), "living_next_item"),
         block(QuestionStep::new(most_contexts), "living_question_step"),
         block(PartQueue::default(), "living_part_queue"),
         block(ReturnLine::new(Config { contexts: 8, ..TINY }), "return_line"),

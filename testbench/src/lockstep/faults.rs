@@ -455,6 +455,10 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     Fault { name: "fetch_beside_a_write_counts", pieces: &[piece("| @;\n        torn3$d", "meets_write1$q", "1'b0")] },
     Fault { name: "point_of_a_move_is_not_written", pieces: &[piece("if (@) begin", "late$0$writes", "1'b0")] },
     Fault {
+        name: "vertex_is_read_before_its_late_point",
+        pieces: &[piece("fetches$0 = pipeline$fetches$0 | @ |", "late$0$waits", "1'b0")],
+    },
+    Fault {
         name: "commit_writes_beside_a_hole",
         pieces: &[piece("commits$holds$0 = @;", "holes$0$writes_next", "1'b0")],
     },

@@ -2,8 +2,7 @@
 //! of the interval and finds the ends of the next one, and then looks for the first test there.
 //!
 //! 1. A hole waits in line until those before it have got as far as a test or their end. The first in line is kept in a
-//!    register, so that its work begins one clock after that of the hole
-//!    before it ends.
+//!    register, so that its work begins one clock after that of the hole before it ends.
 //! 2. A test enters the queue of visits in a clock in which nothing else does (`pushes`). A hole that is full or flat
 //!    ends in a clock in which no other item does (`may_end`).
 //! 3. While the writer is full, no triangle is put and no hole ends.

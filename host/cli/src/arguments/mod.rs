@@ -90,9 +90,9 @@ pub enum Command {
     Tile(TileArguments),
     /// Carry out a script of changes and questions on a mesh that lives
     ///
-    /// The back ends 'cpu', 'model', 'clock' with a core of one engine, and 'sim', boards and cards whose
-    /// core has runs make all changes and answer all questions. With any other the CPU does that, and the
-    /// device makes the mesh at the end, from the points that live then; the bytes are the same.
+    /// With the back ends 'model', 'clock' for a core of one engine, and 'sim', boards and cards whose
+    /// core has runs, the device makes all changes and answers all questions. With any other the CPU does
+    /// that, and the device makes the mesh at the end, from the points that live then; the bytes are the same.
     #[command(verbatim_doc_comment, after_help = help::REPLAY, after_long_help = help::REPLAY_LONG)]
     Replay(ReplayArguments),
     /// Compute the Voronoi cells of a file of points, exactly

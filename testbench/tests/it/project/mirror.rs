@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// Blocks without a test file of their own: the test that runs the block, by its path from `tests/it`,
 /// and why that test is enough.
-const ELSEWHERE: [(&str, &str, &str); 70] = [
+const ELSEWHERE: [(&str, &str, &str); 69] = [
     ("cluster/dual", "cores/chip", "wires between router, slots and collector"),
     ("cluster/engine_slot", "cores/chip", "a core with its queue and a count, at every clock"),
     ("cluster/quad", "cores/chip", "wires between router, slots and collector"),
@@ -66,7 +66,6 @@ const ELSEWHERE: [(&str, &str, &str); 70] = [
     ),
     ("living/late_events", "cores/changes", "the events that end items, a clock later, at every clock"),
     ("living/named_vertices", "blocks/living/question_step", "the finding in a triangle, at the ports of the step"),
-    ("living/next_item", "cores/changes", "the item that begins next, at every clock"),
     ("living/part_beat", "blocks/living/part_queue", "the words of each part, two at a time"),
     ("living/queue_counts", "blocks/living/item_queues", "the counts of the queues, which alone use them"),
     ("living/run_answer", "blocks/living/run_port", "the head of every answer, also of a run that is refused"),

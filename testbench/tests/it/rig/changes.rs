@@ -131,8 +131,8 @@ impl Rig {
         Ok(())
     }
 
-    /// A `Delete` of these vertices. The model by commands deletes those of which the parts say so, and then refuses
-    /// all others for the same reason.
+    /// A `Delete` of these vertices. The model by commands deletes the vertices whose parts say `Done`, and must then
+    /// refuse all others with the outcomes that the parts have.
     fn delete(&mut self, vertices: &[u32]) -> Result<(), Box<Mismatch>> {
         let run = |vertices: &[u32]| [&[command_word(Opcode::Delete), vertices.len() as u32], vertices].concat();
         let length = 2 + if self.stands { 2 * vertices.len() } else { 0 };
@@ -410,6 +410,36 @@ impl Rig {
             if self.random.once_in(3) {
                 self.read()?;
             }
+        }
+        self.read()
+    }
+
+    /// A script whose runs move the same four vertices again and again, by short ways. So an item often comes soon after
+    /// the end of another one for its vertex.
+    pub fn script_of_few(&mut self) -> Result<(), Box<Mismatch>> {
+        const SIDE: u64 = 1 << 12;
+        self.clear()?;
+        let corners = [[0, 0], [SIDE - 1, 0], [0, SIDE - 1], [SIDE - 1, SIDE - 1]];
+        let mut points: Vec<u32> = corners.iter().map(|&[x, y]| (x | y << 16) as u32).collect();
+        points.extend((0..12).map(|_| place(&mut self.random, SIDE)));
+        self.insert(&points)?;
+        for _ in 0..4 {
+            let four: Vec<u32> = self.living.keys().copied().filter(|&vertex| vertex > 3).take(4).collect();
+            if four.is_empty() {
+                break;
+            }
+            let items = (0..40).map(|_| {
+                let vertex = self.random.pick(&four);
+                let near = |value: u32, random: &mut SplitMix64| {
+                    (u64::from(value) + random.below(601)).saturating_sub(300).min(SIDE - 1) as u32
+                };
+                let at = self.living[&vertex];
+                let to = near(at & 0xffff, &mut self.random) | near(at >> 16, &mut self.random) << 16;
+                [vertex, to]
+            });
+            let items: Vec<Item> = items.collect();
+            self.places.extend(items.iter().map(|item| item[1]));
+            self.move_to(&items)?;
         }
         self.read()
     }

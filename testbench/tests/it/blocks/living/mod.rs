@@ -4,6 +4,7 @@ mod change_ends;
 mod item_queues;
 mod late_points;
 mod near_search;
+mod next_item;
 mod part_queue;
 mod question_step;
 mod questions;
