@@ -13,7 +13,7 @@ const PATIENCE: u64 = 1_000_000;
 pub(super) struct Core {
     model: ClockModel,
     layout: Layout,
-    /// The clocks of a run, where the model counts nothing else: that of the hardware.
+    /// The clocks of a run and of its items, where the model counts nothing else: that of the hardware.
     clocks_alone: Option<RunCounts>,
 }
 
@@ -67,6 +67,7 @@ impl Core {
         }
         if let Some(counts) = &mut self.clocks_alone {
             counts.clocks = clocks;
+            counts.latencies = self.model.run_latencies().unwrap_or_default().to_vec();
             return Ok((counts, refused));
         }
         let counts = self.model.run_counts().ok_or_else(|| Failure::from("the core has no runs"))?;

@@ -6,6 +6,7 @@
 
 mod changes;
 mod item_queues;
+mod latencies;
 mod near;
 mod part_queue;
 mod run_port;
@@ -18,6 +19,7 @@ use super::memory::Memory;
 use changes::{Around, Changes};
 use incircle_protocol::{Config, RunKind};
 use item_queues::ItemQueues;
+use latencies::Latencies;
 use near::Search;
 use part_queue::{Part, PartQueue};
 use run_port::RunPort;
@@ -44,6 +46,8 @@ pub(super) struct Questions {
     upcoming: Option<Upcoming>,
     /// The events of the clock before that end items.
     late: Events,
+    /// How long the items of the last run took, which only those who watch the model ask for.
+    latencies: Latencies,
 }
 
 /// The item that begins next, with the record at which its walk begins.
@@ -71,7 +75,14 @@ impl Questions {
             returns: VecDeque::new(),
             upcoming: None,
             late: Events::default(),
+            latencies: Latencies::default(),
         }
+    }
+
+    /// For each item that has begun in the last run, in the order in which they ended, the number of clocks from its
+    /// start to its end.
+    pub(super) fn latencies(&self) -> &[u32] {
+        self.latencies.ended()
     }
 
     /// Whether a run is under way.
@@ -212,8 +223,14 @@ impl Questions {
         let is_over = self.parts.is_over() && (asks || events.all_rest);
         let head = self.port.head(signals.signature);
         let begins = done.launched.is_some() && self.port.is_active() || change.is_noted;
+        let part = came.or(change.came);
+        self.latencies.clock(
+            head.is_some(),
+            begun.filter(|it| !it.returns && self.port.is_active()).map(|it| it.item.number),
+            part.filter(|_| !change.is_noted).map(|part| part.number),
+        );
         self.port.clock(signals, change.taken, is_over);
-        self.parts.clock(head, begins, came.or(change.came), signals.is_taken);
+        self.parts.clock(head, begins, part, signals.is_taken);
         if signals.clears {
             self.hints.fill(0);
         }

@@ -84,9 +84,20 @@ impl ClockModel {
         }
     }
 
-    /// What the last run did. `None` for a core without runs.
+    /// What the last run did. `None` for a core without runs, and for one with the blocks of the hardware
+    /// ([`ClockModel::with_core_runs`]), of which [`ClockModel::run_latencies`] tells how long its items took.
     pub fn run_counts(&self) -> Option<&RunCounts> {
         self.living.as_ref().map(LivingEngine::counts)
+    }
+
+    /// For each item that the last run has begun, in the order in which they ended, the number of clocks from its start
+    /// to its end. Items that are refused before they begin have none. `None` for a core without runs.
+    pub fn run_latencies(&self) -> Option<&[u32]> {
+        match (&self.living, &self.questions) {
+            (Some(living), _) => Some(&living.counts().latencies),
+            (None, Some(questions)) => Some(questions.latencies()),
+            (None, None) => None,
+        }
     }
 
     /// The outputs of the core, given those of the insertion engine.
