@@ -54,6 +54,9 @@ pub(super) struct Script<'a> {
     /// The place of each vertex. The first three span a triangle, and stay.
     points: Vec<Point>,
     random: SplitMix64,
+    /// The items of the next run go backwards along the curve, as the host has those of every second run. The model of
+    /// the living engine expects all runs to go forwards, and so it is not given any that go backwards.
+    backwards: bool,
 }
 
 impl<'a> Script<'a> {
@@ -71,7 +74,8 @@ impl<'a> Script<'a> {
         let third = (2..points.len()).find(spans).ok_or("all points lie on one line")?;
         points.swap(2, third);
         core.load(&points)?;
-        Ok(Self { arguments, along_curve, core, points, random: SplitMix64::new(arguments.seed + 1) })
+        let random = SplitMix64::new(arguments.seed + 1);
+        Ok(Self { arguments, along_curve, core, points, random, backwards: false })
     }
 
     pub(super) fn run(&mut self, give: Give) -> Result<(), Failure> {
@@ -132,6 +136,7 @@ impl<'a> Script<'a> {
         self.random.shuffle(&mut items);
         for chunk in items.chunks(self.arguments.items as usize) {
             let dealt = self.deal(kind, chunk);
+            self.backwards = self.arguments.hardware && !self.backwards;
             let (counts, refused) = self.core.run(kind, &dealt, outcome)?;
             tally.add(dealt.len(), counts, refused);
         }
@@ -156,7 +161,11 @@ impl<'a> Script<'a> {
             stretches.push(stretch);
             rest = after;
         }
-        (0..sorted.len()).map(|place| stretches[place % contexts][place / contexts]).collect()
+        let at = |stretch: &[Item], place: usize| match self.backwards {
+            true => stretch[stretch.len() - 1 - place],
+            false => stretch[place],
+        };
+        (0..sorted.len()).map(|place| at(stretches[place % contexts], place / contexts)).collect()
     }
 
     /// Places near the points, at most the mean distance of points away.

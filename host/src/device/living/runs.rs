@@ -35,10 +35,14 @@ impl Pending {
     }
 }
 
-/// The places of items in a run: along the Hilbert curve, and cut into a stretch for each context. Item `i` belongs to
-/// context `i` modulo their number.
-fn dealt(places: &[Point], contexts: usize) -> Vec<u32> {
+/// The places of items in a run: along the Hilbert curve, or `backwards` along it, and cut into a stretch for each
+/// context. Item `i` belongs to context `i` modulo their number.
+fn dealt(places: &[Point], contexts: usize, backwards: bool) -> Vec<u32> {
     let curve = hilbert(places);
+    let at = |stretch: &[u32], place: usize| match backwards {
+        true => stretch[stretch.len() - 1 - place],
+        false => stretch[place],
+    };
     let count = curve.len();
     let mut rest = &curve[..];
     let stretches: Vec<&[u32]> = (0..contexts)
@@ -48,7 +52,7 @@ fn dealt(places: &[Point], contexts: usize) -> Vec<u32> {
             stretch
         })
         .collect();
-    (0..count).map(|place| stretches[place % contexts][place / contexts]).collect()
+    (0..count).map(|place| at(stretches[place % contexts], place / contexts)).collect()
 }
 
 impl LivingSession<'_> {
@@ -59,7 +63,9 @@ impl LivingSession<'_> {
         let mut parts = Vec::with_capacity(items.len());
         let most = self.device.most_items(pending.kind);
         for (items, places) in items.chunks(most).zip(places.chunks(most)) {
-            let order = dealt(places, contexts);
+            let order = dealt(places, contexts, self.runs_backwards);
+            // A context begins to walk where its last item was, which is near the first of the next run then.
+            self.runs_backwards = !self.runs_backwards;
             let run: Vec<Item> = order.iter().map(|&index| items[index as usize]).collect();
             let answers = self.device.ask_all(pending.kind, &run)?;
             let mut sorted: Vec<(u32, Part)> = order.into_iter().zip(answers).collect();
@@ -232,9 +238,11 @@ mod tests {
     #[test]
     fn each_context_gets_a_stretch_of_the_curve() {
         let places: Vec<Point> = (0..10).map(|x| Point::new(x, 0)).collect();
-        let run = dealt(&places, 4);
-        let of = |context: usize| run.iter().copied().skip(context).step_by(4).collect::<Vec<_>>();
-        assert_eq!([of(0), of(1), of(2), of(3)], [vec![0, 1, 2], vec![3, 4, 5], vec![6, 7], vec![8, 9]]);
-        assert_eq!(dealt(&places[..1], 4), [0]);
+        let of = |run: &[u32], context: usize| run.iter().copied().skip(context).step_by(4).collect::<Vec<_>>();
+        let stretches = |run: Vec<u32>| [0, 1, 2, 3].map(|context| of(&run, context));
+        let (there, back) = (dealt(&places, 4, false), dealt(&places, 4, true));
+        assert_eq!(stretches(there), [vec![0, 1, 2], vec![3, 4, 5], vec![6, 7], vec![8, 9]]);
+        assert_eq!(stretches(back), [vec![2, 1, 0], vec![5, 4, 3], vec![7, 6], vec![9, 8]]);
+        assert_eq!(dealt(&places[..1], 4, true), [0]);
     }
 }

@@ -62,13 +62,15 @@ pub struct LivingSession<'d> {
     /// Vertices that are free, the last freed last.
     pub(super) free: Vec<u32>,
     pub(super) held: Held,
+    /// The items of the next run go backwards along the curve, as those of every second run do.
+    pub(super) runs_backwards: bool,
 }
 
 impl<'d> LivingSession<'d> {
     pub(crate) fn new(backend: &'d mut dyn Backend, identity: Identity, choices: Choices) -> Self {
         let device = LivingDevice::new(backend, identity, choices.timeout);
         let (vertices, free) = (Vec::new(), Vec::new());
-        Self { device, choices, names: Names::default(), vertices, free, held: Held::Nothing }
+        Self { device, choices, names: Names::default(), vertices, free, held: Held::Nothing, runs_backwards: false }
     }
 
     /// The vertices of the triangle, edge or vertex at a place, each with its weight there: the value at the place, by
