@@ -20,8 +20,8 @@ pub enum Exit {
     Link = 5,
     /// The device reported an error or was silent for too long.
     Device = 6,
-    /// Coordinates have more bits than a core takes, there are more points than a set may have, or a memory cannot hold
-    /// them: that of the computer, or that of a device that keeps a mesh.
+    /// There are more points than a set may have, or a memory cannot hold them: that of the computer, or that of a
+    /// device that keeps a mesh.
     Capacity = 7,
     /// The user interrupted the run.
     Interrupted = 130,

@@ -20,7 +20,7 @@ Exit codes:
   4    device not found, or no permission to use it
   5    link error
   6    device error or timeout
-  7    capacity: too many bits or points, or the memory of a device is full
+  7    capacity: too many points, or the memory of a device is full
   130  interrupted
 
 Examples:

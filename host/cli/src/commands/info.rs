@@ -1,6 +1,7 @@
 //! `incircle info`: describes a back end.
 
 use incircle::DeviceAddress;
+use incircle_protocol::{Identity, RunKind};
 
 use crate::arguments::InfoArguments;
 use crate::backend::{self, Board, Choice};
@@ -15,6 +16,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
     let card = backend.card.map_or(String::new(), |registers| registers.to_string());
     let board = backend.board.map_or(String::new(), about_board);
     let session = backend.device.session().map_err(|error| failure_of(&error))?;
+    let keeps_meshes = session.keeps_living_meshes();
     let identity = session.identity();
     let [major, minor, patch] = [16, 8, 0].map(|shift| identity.core_version >> shift & 0xff);
     let protocol = identity.protocol_version;
@@ -31,10 +33,29 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
         };
         format!(
             "back end {}\nversion {major}.{minor}.{patch}, {protocol}\n{engines}{holds}\n{insertions} at once\n\
-             cavities of up to {} boundary edges\n{board}{card}",
-            backend.name, identity.ring_capacity
+             cavities of up to {} boundary edges\n{}{board}{card}",
+            backend.name,
+            identity.ring_capacity,
+            about_runs(&identity, keeps_meshes)
         )
     })
+}
+
+/// The line about a mesh that lives: the commands with which the device keeps it, if it has any.
+fn about_runs(identity: &Identity, keeps_meshes: bool) -> String {
+    let kinds = [
+        (RunKind::Locate, "locate"),
+        (RunKind::Interpolate, "interpolate"),
+        (RunKind::Nearest, "nearest"),
+        (RunKind::InsertAs, "insert"),
+        (RunKind::Delete, "delete"),
+        (RunKind::Move, "move"),
+    ];
+    if !keeps_meshes {
+        return "a mesh that lives: kept by the processor\n".into();
+    }
+    let taken: Vec<_> = kinds.into_iter().filter(|&(kind, _)| identity.takes(kind)).map(|(_, name)| name).collect();
+    format!("a mesh that lives: {}\n", taken.join(", "))
 }
 
 /// The lines about a board: its link and its clock.

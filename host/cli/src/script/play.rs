@@ -37,7 +37,9 @@ pub fn play<P: PlanePoint>(
 ) -> Result<Played, Failure> {
     let is_insertion = |command: &&Command| **command == Command::Insert;
     let lead = if film.is_some() { 0 } else { script.commands.iter().take_while(is_insertion).count() };
-    mesh.insert_all(&points[..lead]).map_err(|error| failure_at(&error, mesh.next_index() as usize))?;
+    let last = lead.saturating_sub(1);
+    mesh.insert_all(&points[..lead])
+        .map_err(|error| failure_at(&error, script, last.min(mesh.next_index() as usize)))?;
     meter.advance(lead as u64);
     let mut answers = Vec::new();
     let mut place = lead;
@@ -92,7 +94,7 @@ fn step<P: PlanePoint>(
 /// takes, so what is left is a memory that is full, and faults of a device.
 fn refused(error: &Error, script: &Script, number: usize) -> Failure {
     let Some([[constraint, a, b], [other, c, d]]) = crossing(error) else {
-        return failure_at(error, number);
+        return failure_at(error, script, number);
     };
     let row = script.row(number);
     Failure::input(format!(
@@ -110,7 +112,12 @@ fn crossing(error: &Error) -> Option<[[u32; 3]; 2]> {
     Some([[one, a, b], [other, c, d]])
 }
 
-fn failure_at(error: &Error, number: usize) -> Failure {
+/// The failure at the row of this command, or behind the last one.
+fn failure_at(error: &Error, script: &Script, number: usize) -> Failure {
     let failure = failure_of(error);
-    Failure { message: format!("command {}: {}", number + 1, failure.message), ..failure }
+    let place = match script.commands.len() > number {
+        true => format!("row {}", script.row(number)),
+        false => "at the end".into(),
+    };
+    Failure { message: format!("{place}: {}", failure.message), ..failure }
 }

@@ -159,6 +159,10 @@ fn it_says_what_it_is() {
     let run = scratch.run("info --backend clock --config full").ok();
     assert!(run.stdout.contains("back end clock\n"), "{run:?}");
     assert!(run.stdout.contains("coordinates of 16 bits\n8192 points\n16 insertions at once\n"), "{run:?}");
+    let commands = "\na mesh that lives: locate, interpolate, nearest, insert, delete, move\n";
+    assert!(run.stdout.contains(commands), "{run:?}");
+    let run = scratch.run("info --backend clock --config quad").ok();
+    assert!(run.stdout.contains("\na mesh that lives: kept by the processor\n"), "{run:?}");
 }
 
 #[test]

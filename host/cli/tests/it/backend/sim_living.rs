@@ -67,7 +67,7 @@ fn a_full_memory_ends_the_run() {
     let rows: String = (0..1025u32).map(|k| format!("insert {} {}\n", k % 33, k / 33)).collect();
     scratch.write("s.txt", &rows);
     let full = "all 1024 places that sim:small can hold have points: delete some, or use a larger device";
-    scratch.run("replay s.txt -o none.ele --backend sim?living=yes").fails(7, &["s.txt: command 1025: ", full]);
+    scratch.run("replay s.txt -o none.ele --backend sim?living=yes").fails(7, &["s.txt: row 1025: ", full]);
     assert_eq!(scratch.files(), ["s.txt"]);
     // A deletion makes room.
     scratch.write("s.txt", rows.replacen("insert 4 0", "delete 2\ninsert 4 0", 1));

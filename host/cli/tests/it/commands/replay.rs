@@ -158,7 +158,7 @@ fn devices_make_the_same_mesh() {
     let run = scratch.run("replay s.txt -o m.ele --backend clock").ok();
     assert!(!run.stderr.contains("by cpu"), "{run:?}");
     let full = "all 8 places that clock:tiny can hold have points";
-    scratch.run("replay s.txt -o none.ele --backend clock?config=tiny").fails(7, &["s.txt: command", full]);
+    scratch.run("replay s.txt -o none.ele --backend clock?config=tiny").fails(7, &["s.txt: row", full]);
     assert!(!scratch.files().iter().any(|file| file.contains("none")));
 }
 
@@ -185,9 +185,9 @@ fn a_full_memory_ends_the_run() {
     scratch.write("s.txt", format!("{square}insert 9 9\ndelete 0\ninsert 1 1\nmove 4 5 5\n"));
     let full = "all 4 places that model can hold have points: delete some, or use a larger device";
     let run = "replay s.txt -o m.ele --backend model?capacity=4";
-    scratch.run(run).fails(7, &["s.txt: command 8: ", full]);
+    scratch.run(run).fails(7, &["s.txt: row 8: ", full]);
     scratch.write("s.txt", format!("{square}insert 5 5\n"));
-    scratch.run(run).fails(7, &["s.txt: command 5: ", full]);
+    scratch.run(run).fails(7, &["s.txt: row 5: ", full]);
     scratch.write("s.txt", format!("{square}insert 9 9\ndelete 0\ninsert 1 1\nmove 4 1 1\nmove 1 8 1\n"));
     scratch.run(run).ok();
     scratch.run("verify s.txt m.ele --script -q").ok();
