@@ -61,9 +61,9 @@ pub struct InsertionEngine {
     pub completed: Vec<Signal<Out, Completion>>,
     pub sides: Vec<Signal<Out, Sides>>,
     pub nearest: Vec<Signal<Out, NearVerdict>>,
-    /// An item of a run of changes begins: its context starts to walk (`launch`), to the place of `question_place`, and
-    /// the point may have to be stored. The mesh has been changed, and some point of an `Insert` is not finished; a run
-    /// of changes is under way; and the events that end items.
+    /// An item of a run of changes begins: its context starts to walk (`launch`), to the place of `question_place`. In
+    /// the clock after, its point may have to be stored (`launch_stores`). The mesh has been changed, and some point of
+    /// an `Insert` is not finished; a run of changes is under way; and the events that end items.
     pub launches: Vec<Signal<In, Bit>>,
     pub launch: Vec<Signal<In, Start>>,
     pub launch_stores: Vec<Signal<In, Bit>>,
@@ -256,8 +256,7 @@ impl Logic for InsertionEngine {
             self.late[i].reset.next = self.reset.val();
             self.late[i].comes.next = self.insertions.moved[i].val();
             self.late[i].fetches.next = self.pipeline.fetches[i].val();
-            self.late[i].is_taken.next = self.launch_stores[i].val();
-            self.insertions.is_last_chance[i].next = self.late[i].is_last_chance.val();
+            self.insertions.late_waits[i].next = self.late[i].waits.val();
             if self.late[i].writes.val() {
                 self.pipeline.arrival.next = self.late[i].arrival.val();
             }

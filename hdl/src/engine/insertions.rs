@@ -68,8 +68,8 @@ pub struct Insertions {
     /// moves, with the item that begins, or one of either (`hole_runs`). The visit that reads its record, and the
     /// vertices of its test. Whether the corners of the completed visit turn left, and the point against its sides. The
     /// point of a move in place that ends; the vertices that chains carry; a test that enters the queue; the two ids of
-    /// a solo insertion; a vertex is put out of the mesh, or has come back. A point must be written, so no item begins
-    /// (`is_last_chance`).
+    /// a solo insertion; a vertex is put out of the mesh, or has come back. The point of a move in place waits to be
+    /// written, so no vertex goes back into the mesh.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
     pub moving: Vec<Signal<In, Moving>>,
@@ -86,7 +86,7 @@ pub struct Insertions {
     pub solo_second: Vec<Signal<Out, TriangleId>>,
     pub erases: Vec<Signal<Out, Bit>>,
     pub returns: Vec<Signal<Out, Bit>>,
-    pub is_last_chance: Vec<Signal<In, Bit>>,
+    pub late_waits: Vec<Signal<In, Bit>>,
     holes: Vec<Holes>,
     merge: Vec<HoleMerge>,
     view: Vec<ChangeView>,
@@ -130,7 +130,7 @@ impl Insertions {
             turns_left: vec![Signal::default()],
             sides: vec![Signal::default()],
             hole_runs: vec![Signal::default()],
-            is_last_chance: vec![Signal::default()],
+            late_waits: vec![Signal::default()],
             moved: vec![Signal::default()],
             carried: vec![Signal::default()],
             fill_push: vec![Signal::default()],
@@ -244,7 +244,7 @@ impl Logic for Insertions {
             self.holes[i].moving.next = self.moving[i].val();
             self.holes[i].sides.next = self.sides[i].val();
             self.hole_runs[i].next = self.holes[i].runs.val();
-            self.view[i].is_last_chance.next = self.is_last_chance[i].val();
+            self.view[i].late_waits.next = self.late_waits[i].val();
             self.moved[i].next = self.holes[i].moved.val();
             self.carried[i].next = self.holes[i].carried.val();
             self.commits.holds[i].next = self.holes[i].writes_next.val();

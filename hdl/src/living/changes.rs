@@ -81,6 +81,10 @@ pub struct Changes {
     step: ChangeEnds,
     late: LatePoints,
     changed: DFF<Bit>,
+    /// An item that belongs to no run has begun, and its vertex is not marked yet.
+    begun: DFF<Bit>,
+    begun_vertex: DFF<VertexId>,
+    marks_begun: Signal<Local, Bit>,
     hole_runs: Signal<Local, Bit>,
     item: Signal<Local, Item>,
     dealt_item: Signal<Local, Item>,
@@ -96,15 +100,15 @@ impl Changes {
 impl Logic for Changes {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, changed);
+        dff_setup!(self, clock, changed, begun, begun_vertex);
         clock!(self, clock, check, step, late);
         self.check.reset.next = self.reset.val();
         self.step.reset.next = self.reset.val();
         self.late.reset.next = self.reset.val();
         self.check.clears.next = self.clears.val();
         self.late.clears.next = self.clears.val();
-        self.hole_runs.next = self.is_active.val() & (self.is_delete.val() | self.is_move.val());
-        self.runs.next = self.is_active.val() & self.is_change.val();
+        self.hole_runs.next = self.is_delete.val() | self.is_move.val();
+        self.runs.next = self.is_change.val();
         self.has_changed.next = self.changed.q.val();
         self.item.next = self.launch.val().item;
         self.dealt_item.next = self.dealt.val().item;
@@ -120,12 +124,19 @@ impl Logic for Changes {
         self.check.fetches.next = self.fetches.val();
         self.check.fetched.next = self.fetched.val();
         self.wanted.next = self.check.wanted.val();
-        self.check.marks.next =
-            (self.launches.val() & (!self.hole_runs.val())) | self.events.val().takes | self.step.remarks.val();
-        self.check.disowns.next = !(self.is_active.val() & self.is_change.val());
-        self.check.marked.next = self.events.val().taken;
+        // The vertex of an item of a run has been marked by its check. That of another item waits for a clock in which
+        // none falls out of use. The next item begins in such a clock at the earliest, so one place is enough.
+        self.begun.d.next =
+            (self.launches.val() & (!self.is_active.val())) | (self.begun.q.val() & self.step.unmarks.val());
         if self.launches.val() {
-            self.check.marked.next = self.item.val().vertex;
+            self.begun_vertex.d.next = self.item.val().vertex;
+        }
+        self.marks_begun.next = self.begun.q.val() & (!self.step.unmarks.val());
+        self.check.marks.next = self.marks_begun.val() | self.events.val().takes | self.step.remarks.val();
+        self.check.disowns.next = !self.is_change.val();
+        self.check.marked.next = self.events.val().taken;
+        if self.begun.q.val() {
+            self.check.marked.next = self.begun_vertex.q.val();
         }
         if self.step.remarks.val() {
             self.check.marked.next = self.step.remarked.val();
@@ -148,8 +159,8 @@ impl Logic for Changes {
         }
 
         self.step.hole_runs.next = self.hole_runs.val();
-        self.step.is_move.next = self.is_active.val() & self.is_move.val();
-        self.step.runs.next = self.is_active.val() & self.is_change.val();
+        self.step.is_move.next = self.is_move.val();
+        self.step.runs.next = self.is_change.val();
         self.step.events.next = self.events.val();
         self.step.context_id.next = self.context_id.val();
         self.step.number.next = self.number.val();
@@ -171,6 +182,7 @@ impl Logic for Changes {
         }
         if self.reset.val() | self.clears.val() {
             self.changed.d.next = false;
+            self.begun.d.next = false;
         }
     }
 }

@@ -43,7 +43,7 @@ pub struct ItemQueues {
     /// The line holds an item, and the first item in the line.
     pub waits: Signal<Out, Bit>,
     pub launch: Signal<Out, Launch>,
-    /// The first item in the line begins at this edge. The user sets it only while `waits` is 1.
+    /// The first item in the line leaves it at this edge. The user sets it only while `waits` is 1.
     pub launches: Signal<In, Bit>,
     /// No context has an item.
     pub rests: Signal<Out, Bit>,

@@ -34,9 +34,11 @@ pub struct PartQueue {
     pub reset: Signal<In, Bit>,
     /// The head of an answer, which comes before the first item begins.
     pub head: Signal<In, RunHead>,
-    /// An item begins at this edge, which takes a place; only with `has_room`.
+    /// An item begins at this edge, which takes a place; only with `has_room`. A user who cannot tell whether another
+    /// item takes a place in the next clock waits until two are free (`has_two_places`).
     pub begins: Signal<In, Bit>,
     pub has_room: Signal<Out, Bit>,
+    pub has_two_places: Signal<Out, Bit>,
     /// The part of an item that ends.
     pub came: Signal<In, PartCame>,
     pub response: AnswerSource,
@@ -45,9 +47,10 @@ pub struct PartQueue {
     parts: Fifo<PART_ADDRESS_BITS, PART_BITS>,
     first: Unpack<Part, PART_BITS>,
     kept: DFF<PartCame>,
-    /// Number of places that are taken, and whether all are.
+    /// Number of places that are taken; whether all are, and whether at most one is free.
     places: DFF<Bits<6>>,
     is_full: DFF<Bit>,
+    is_almost_full: DFF<Bit>,
     announced: DFF<RunHead>,
     head_is_due: DFF<Bit>,
     /// Number of parts that are still to leave, and whether there are any.
@@ -73,6 +76,7 @@ pub struct PartQueue {
     one_beat: Signal<Local, BeatNumber>,
     one_place: Signal<Local, Bits<6>>,
     all_places: Signal<Local, Bits<6>>,
+    last_place: Signal<Local, Bits<6>>,
 }
 
 // The kernel holds the number of places as a literal, because rust-hdl allows no constants there.
@@ -81,13 +85,26 @@ const _: () = assert!(PART_ADDRESS_BITS == 5, "the kernel of this block is for 3
 impl Logic for PartQueue {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, kept, places, is_full, announced, head_is_due, left, some_are_left, beat);
+        dff_setup!(
+            self,
+            clock,
+            kept,
+            places,
+            is_full,
+            is_almost_full,
+            announced,
+            head_is_due,
+            left,
+            some_are_left,
+            beat
+        );
         dff_setup!(self, clock, valid, offered);
         clock!(self, clock, parts);
         self.one.next = 1.into();
         self.one_beat.next = 1.into();
         self.one_place.next = 1.into();
         self.all_places.next = 32.into();
+        self.last_place.next = 31.into();
         self.pair.next.low = self.offered.q.val().low;
         self.pair.next.high = self.offered.q.val().high;
         self.pair_bits.next = self.pair.val().into();
@@ -98,6 +115,7 @@ impl Logic for PartQueue {
         self.loads.next = (!self.valid.q.val()) | self.response.ready.val();
         self.is_over.next = (!self.head_is_due.q.val()) & (!self.some_are_left.q.val()) & (!self.valid.q.val());
         self.has_room.next = !self.is_full.q.val();
+        self.has_two_places.next = !self.is_almost_full.q.val();
 
         // The fields of a part settle late in their clock, so a register keeps them before the memory does.
         self.kept.d.next = self.came.val();
@@ -153,10 +171,13 @@ impl Logic for PartQueue {
         }
         self.places.d.next = self.next_places.val();
         self.is_full.d.next = self.next_places.val() == self.all_places.val();
+        self.is_almost_full.d.next =
+            self.next_places.val().get_bit(5) | (self.next_places.val() == self.last_place.val());
         if self.reset.val() {
             self.kept.d.next.valid = false;
             self.places.d.next = 0.into();
             self.is_full.d.next = false;
+            self.is_almost_full.d.next = false;
             self.head_is_due.d.next = false;
             self.some_are_left.d.next = false;
             self.beat.d.next = 0.into();

@@ -33,7 +33,7 @@ use super::part_queue::PartQueue;
 use super::question_step::QuestionStep;
 use super::return_line::ReturnLine;
 use super::run_port::RunPort;
-use super::types::{Item, ItemNumber, Launch, Part};
+use super::types::{ContextEnd, Item, ItemNumber, Launch, Part};
 use crate::commands::{AnswerSource, CommandSink};
 use crate::engine::types::{
     context_bits, Arrival, Bundle, ChangeEvents, Completion, ContextId, ContextSet, Moving, NearVerdict, Position,
@@ -81,7 +81,8 @@ pub struct Questions {
     pub point_waits: Signal<Out, Bit>,
     pub raises: Signal<Out, Bit>,
     pub raised: Signal<Out, VertexId>,
-    /// The context of an item of a change starts to walk, to the place in `position`; its point has to be stored.
+    /// The context of an item of a change starts to walk, to the place in `position`. In the clock
+    /// after, its point has to be stored.
     pub start: Signal<Out, Start>,
     pub stored: Signal<Out, Arrival>,
     /// Ids are kept for the vertex of the item; a run of deletions is under way; or one of moves, with the item that
@@ -108,6 +109,10 @@ pub struct Questions {
     numbers: LutMemory<CONTEXT_BITS, 24>,
     /// Bit `c`: context `c` has a hint.
     hinted: DFF<ContextSet>,
+    /// The point of an item that has begun in the clock before; the context whose question has ended then. Both come
+    /// late in their clocks, and lead to block RAMs.
+    storing: DFF<Arrival>,
+    ended: DFF<ContextEnd>,
     visit: Signal<Local, Visit>,
     launch: Signal<Local, Launch>,
     item: Signal<Local, Item>,
@@ -147,7 +152,7 @@ impl Questions {
 impl Logic for Questions {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, hinted);
+        dff_setup!(self, clock, hinted, storing, ended);
         clock!(self, clock, port, queues, line, step, parts, hints, numbers, changes, late, upcoming);
         self.one_bit.next = 1.into();
         self.port.reset.next = self.reset.val();
@@ -157,7 +162,7 @@ impl Logic for Questions {
         self.port.contexts.next = self.contexts.val();
         self.port.has_mesh.next = self.has_mesh.val();
         CommandSink::link(&mut self.command, &mut self.port.command);
-        self.is_question.next = self.port.is_active.val() & (!self.port.is_change.val());
+        self.is_question.next = self.port.is_question.val();
         self.port.taken.next = self.changes.taken.val();
         self.port.is_over.next = self.parts.is_over.val() & (self.is_question.val() | self.events.val().all_rest);
         self.is_active.next = self.port.is_active.val();
@@ -172,9 +177,10 @@ impl Logic for Questions {
         self.queues.reset.next = self.reset.val();
         self.queues.dealt.next = self.changes.queued.val();
         self.queues.ends.next = self.changes.ends.val();
+        self.ended.d.next.valid = self.step.ends.val() & (!self.reset.val());
+        self.ended.d.next.context = self.visit.val().context;
         if self.is_question.val() {
-            self.queues.ends.next.valid = self.step.ends.val();
-            self.queues.ends.next.context = self.visit.val().context;
+            self.queues.ends.next = self.ended.q.val();
         }
 
         self.late.reset.next = self.reset.val();
@@ -193,7 +199,7 @@ impl Logic for Questions {
         self.upcoming.waits.next = self.queues.waits.val();
         self.upcoming.queued.next = self.queues.launch.val();
         self.upcoming.has_room.next = self.parts.has_room.val();
-        self.begins_item.next = self.upcoming.takes_queued.val();
+        self.begins_item.next = self.upcoming.pops.val();
         self.queues.launches.next = self.begins_item.val();
         self.line.begins.next = self.begins_item.val();
         self.line.begun.next = self.queues.launch.val();
@@ -207,8 +213,9 @@ impl Logic for Questions {
         }
         self.upcoming.start_record.next = self.start_record.val();
 
-        // The queue of the pipeline takes one bundle a clock, so a walk begins only if no completed visit asks. In the
-        // clock in which a vertex falls out of use, none may come into use.
+        // The queue of the pipeline takes one bundle a clock, so a walk begins only if no completed visit asks. No item
+        // begins in a clock in which a vertex falls out of use, because `Changes` has one place for a vertex that waits
+        // for its mark.
         self.launch.next = self.upcoming.launch.val();
         self.item.next = self.launch.val().item;
         self.launches.next = self.upcoming.is_ready.val()
@@ -216,7 +223,6 @@ impl Logic for Questions {
             & (!self.is_question.val())
             & (!self.changes.unmarks.val());
         self.walks.next = self.upcoming.is_ready.val() & self.is_question.val();
-        self.upcoming.refills.next = self.walks.val() & (!self.step.asks.val());
         self.upcoming.goes.next = self.launches.val() | (self.walks.val() & (!self.step.asks.val()));
         self.push.next.valid = self.walks.val() | (self.is_question.val() & self.step.asks.val());
         self.bundle.next = self.step.bundle.val();
@@ -237,18 +243,20 @@ impl Logic for Questions {
         self.start.next.record = self.upcoming.record.val();
         self.start.next.takes = true;
         self.start.next.id = self.item.val().vertex;
-        self.deletes.next = self.port.is_active.val() & self.port.is_delete.val();
-        self.moving.next.runs = self.port.is_active.val() & self.port.is_move.val();
+        self.deletes.next = self.port.is_delete.val();
+        self.moving.next.runs = self.port.is_move.val();
         self.moving.next.returns = self.upcoming.is_return.val();
         self.moving.next.stays = self.item.val().place == self.item.val().target;
         self.moving.next.target = self.item.val().target;
         self.owns.next = self.item.val().owns;
-        self.stored.next.came = self.launches.val()
-            & self.changes.runs.val()
+        self.storing.d.next.came = self.launches.val()
+            & (!self.reset.val())
+            & self.port.is_change.val()
             & (!self.port.is_delete.val())
             & ((!self.port.is_move.val()) | self.upcoming.is_return.val());
-        self.stored.next.id = self.item.val().vertex;
-        self.stored.next.point = self.item.val().place;
+        self.storing.d.next.id = self.item.val().vertex;
+        self.storing.d.next.point = self.item.val().place;
+        self.stored.next = self.storing.q.val();
         self.next_launch.next = self.queues.launch.val();
         self.next_item.next = self.next_launch.val().item;
         self.numbers.write_address.next = self.next_launch.val().context;
@@ -313,7 +321,7 @@ impl Logic for Questions {
         self.changes.corner.next = self.late.late_corner.val();
         self.changes.launches.next = self.launches.val();
         self.changes.launch.next = self.launch.val();
-        self.changes.has_room.next = self.parts.has_room.val() & (!self.begins_item.val());
+        self.changes.has_room.next = self.parts.has_two_places.val() & (!self.begins_item.val());
         self.has_changed.next = self.changes.has_changed.val();
         self.is_pending.next = self.changes.is_pending.val();
         self.point_waits.next = self.changes.point_waits.val();

@@ -19,7 +19,7 @@ pub struct ReturnLine {
     pub clock: Signal<In, Clock>,
     /// Reset empties the line.
     pub reset: Signal<In, Bit>,
-    /// An item begins at this edge: it is not out of this line.
+    /// An item leaves the queues, and begins soon: it is not out of this line.
     pub begins: Signal<In, Bit>,
     pub begun: Signal<In, Launch>,
     /// The vertex of this context is out of the mesh.

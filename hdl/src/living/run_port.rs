@@ -68,8 +68,9 @@ pub struct RunPort {
     /// The item on offer to the contexts, and whether it is taken at this edge.
     pub dealt: Signal<Out, DealtItem>,
     pub taken: Signal<In, Bit>,
-    /// The run under way, or the last one, is an `InsertAs`, a `Delete` or a `Move`, and which; the vertex of the item
-    /// on offer.
+    /// A run of questions is under way; a run of changes is; that run is a `Delete`, or a `Move`. The vertex of the
+    /// item on offer.
+    pub is_question: Signal<Out, Bit>,
     pub is_change: Signal<Out, Bit>,
     pub is_delete: Signal<Out, Bit>,
     pub is_move: Signal<Out, Bit>,
@@ -85,7 +86,10 @@ pub struct RunPort {
     answer: RunAnswer,
     state: DFF<RunState>,
     code: DFF<Bits<8>>,
-    /// `code` decoded, in registers, because many long paths begin here.
+    /// The run under way, and its kind: in registers beside `state` and `code`, because many long paths begin here.
+    active: DFF<Bit>,
+    asks: DFF<Bit>,
+    changes: DFF<Bit>,
     deletes: DFF<Bit>,
     moves: DFF<Bit>,
     has_two_words: DFF<Bit>,
@@ -97,6 +101,9 @@ pub struct RunPort {
     /// The first word of an item of two has come.
     vertex_came: DFF<Bit>,
     is_vertex: Signal<Local, Bit>,
+    is_insert: Signal<Local, Bit>,
+    is_other: Signal<Local, Bit>,
+    ends: Signal<Local, Bit>,
     change_code: Signal<Local, Bits<8>>,
     delete_code: Signal<Local, Bits<8>>,
     move_code: Signal<Local, Bits<8>>,
@@ -120,7 +127,7 @@ const _: () = assert!(
 impl Logic for RunPort {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, deletes, moves, has_two_words);
+        dff_setup!(self, clock, active, asks, changes, deletes, moves, has_two_words);
         dff_setup!(self, clock, state, code, count, left, some_are_left, status, answers, vertex_came);
         clock!(self, clock, dealer);
         self.one.next = 1.into();
@@ -129,9 +136,10 @@ impl Logic for RunPort {
         self.move_code.next = 13.into();
         self.is_delete.next = self.deletes.q.val();
         self.is_move.next = self.moves.q.val();
-        self.is_change.next = self.has_two_words.q.val() | self.deletes.q.val();
+        self.is_question.next = self.asks.q.val();
+        self.is_change.next = self.changes.q.val();
         self.is_vertex.next = self.has_two_words.q.val() & (!self.vertex_came.q.val());
-        self.is_active.next = self.state.q.val() != RunState::Idle;
+        self.is_active.next = self.active.q.val();
         self.is_nearest.next = self.code.q.val().get_bit(1) & (!self.code.q.val().get_bit(0));
         self.starts.next = self.begins.val() & (self.state.q.val() == RunState::Idle);
         self.awaits_item.next =
@@ -165,6 +173,10 @@ impl Logic for RunPort {
         self.answer.gives.next = self.answers.q.val();
         self.head.next = self.answer.head.val();
 
+        self.is_insert.next = self.opcode.val() == self.change_code.val();
+        self.is_other.next =
+            (self.opcode.val() == self.delete_code.val()) | (self.opcode.val() == self.move_code.val());
+        self.ends.next = false;
         self.answers.d.next = false;
         match self.state.q.val() {
             RunState::Idle => {
@@ -173,8 +185,10 @@ impl Logic for RunPort {
                     self.code.d.next = self.opcode.val();
                     self.deletes.d.next = self.opcode.val() == self.delete_code.val();
                     self.moves.d.next = self.opcode.val() == self.move_code.val();
-                    self.has_two_words.d.next =
-                        (self.opcode.val() == self.change_code.val()) | (self.opcode.val() == self.move_code.val());
+                    self.has_two_words.d.next = self.is_insert.val() | (self.opcode.val() == self.move_code.val());
+                    self.changes.d.next = self.is_insert.val() | self.is_other.val();
+                    self.asks.d.next = (!self.is_insert.val()) & (!self.is_other.val());
+                    self.active.d.next = true;
                     self.state.d.next = RunState::Count;
                 }
             }
@@ -214,12 +228,21 @@ impl Logic for RunPort {
             }
             RunState::Settle => {
                 if self.is_over.val() & (!self.answers.q.val()) {
+                    self.ends.next = true;
                     self.state.d.next = RunState::Idle;
                 }
             }
             _ => {
                 self.state.d.next = RunState::Idle;
             }
+        }
+        if self.ends.val() | self.reset.val() {
+            self.active.d.next = false;
+            self.asks.d.next = false;
+            self.changes.d.next = false;
+            self.deletes.d.next = false;
+            self.moves.d.next = false;
+            self.has_two_words.d.next = false;
         }
         if self.reset.val() {
             self.state.d.next = RunState::Idle;

@@ -225,7 +225,9 @@ impl ClockModel {
         self.memory.clock(&was, &wires);
         self.release.clock(&wires, &mut self.memory, self.config, self.defect);
         now.write.clock(&was);
-        now.late_point = LatePoint::after(was.late_point, &wires);
+        now.coming_point = wires.moved;
+        now.late_point = LatePoint::after(was.late_point, was.coming_point, &wires);
+        now.storing = wires.stored;
         if let Some(write) = living_write {
             now.write = write;
         }

@@ -230,10 +230,6 @@ pub const QUESTION_FAULTS: &[Fault] = &[
     },
     Fault { name: "side_1_decides_alone", pieces: &[piece("if (@) begin", "on_0 | on_1", "on_1")] },
     Fault {
-        name: "question_takes_no_place",
-        pieces: &[piece("upcoming$refills = @;", "walks & (~step$asks)", "1'b0")],
-    },
-    Fault {
         name: "weights_are_swapped",
         pieces: &[piece("low[(64'h20)+:(32)] = @;", "((e1) & 32'hffffffff)", "((e0) & 32'hffffffff)")],
     },
@@ -355,10 +351,18 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     },
     Fault { name: "item_begins_beside_a_visit", pieces: &[piece("events[(64'h3e)+:(1)] = @ &", "(~may_ask)", "1'b1")] },
     Fault { name: "item_begins_beside_a_start", pieces: &[piece("& @ & (~fill_asks)", "(~wishes)", "1'b1")] },
-    Fault { name: "item_begins_beside_a_test", pieces: &[piece("& @ & (~is_last_chance)", "(~fill_asks)", "1'b1")] },
+    Fault { name: "item_begins_beside_a_test", pieces: &[piece("& @ & (~(late_waits", "(~fill_asks)", "1'b1")] },
     Fault {
         name: "item_begins_as_a_vertex_falls_out_of_use",
         pieces: &[piece("(~is_question) & @;", "(~changes$unmarks)", "1'b1")],
+    },
+    Fault {
+        name: "vertex_goes_back_beside_a_late_point",
+        pieces: &[piece("& @ & (~contexts", "(~(late_waits & moving[(64'h1)+:(1)]))", "1'b1")],
+    },
+    Fault {
+        name: "vertex_of_a_late_item_is_not_marked",
+        pieces: &[piece("marks_begun = @;", "begun$q & (~step$unmarks)", "1'b0")],
     },
     Fault { name: "hole_ends_beside_a_star", pieces: &[piece("| @ | commits", "may_settle", "1'b0")] },
     // M13.
@@ -442,10 +446,10 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "vertices_of_the_hull_move_in_place",
         pieces: &[piece("(keeps_all & (@))", "~held[(64'h2a)+:(1)]", "1'b1")],
     },
-    Fault { name: "chains_carry_one_vertex", pieces: &[piece("fetch_id = @;", "right$read_data", "left$read_data")] },
+    Fault { name: "chains_carry_one_vertex", pieces: &[piece("carried0$d = @;", "right$read_data", "left$read_data")] },
     Fault {
         name: "stars_are_judged_by_the_old_place",
-        pieces: &[piece("is_moved1$d = @;", "(~is_out) & (visit[(64'h6)+:(1)] | is_last_edge)", "1'b0")],
+        pieces: &[piece("is_moved1$d = @;", "(~out0$q) & (visit[(64'h6)+:(1)] | is_last_edge)", "1'b0")],
     },
     Fault { name: "own_place_is_another_one", pieces: &[piece("is_kept = moves & (@ |", "stays", "1'b0")] },
     Fault {

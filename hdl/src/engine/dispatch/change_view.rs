@@ -1,8 +1,8 @@
 //! Collects the events that end the items of a run of changes, and says whether an item can begin.
 //!
 //! 1. An item can begin in a clock in which no completed visit may ask for visits, no other context would start, no
-//!    hole asks for a test, no context asks for a solo insertion or is at one, and no point must be written. So the
-//!    queue of visits takes one bundle a clock.
+//!    hole asks for a test, and no context asks for a solo insertion or is at one. So the queue of visits takes one
+//!    bundle a clock. While the point of a move in place waits, no item begins whose vertex goes back into the mesh.
 //!
 //! Latency: none, the block is combinational.
 
@@ -33,8 +33,9 @@ pub struct ChangeView {
     pub finds: Signal<In, Bit>,
     pub moved: Signal<In, Arrival>,
     pub moving: Signal<In, Moving>,
-    /// A point takes its last chance of a write, see [`LatePoint`](crate::engine::LatePoint).
-    pub is_last_chance: Signal<In, Bit>,
+    /// The point of a move in place waits to be written, see [`LatePoint`](crate::engine::LatePoint), so no vertex may
+    /// go back into the mesh.
+    pub late_waits: Signal<In, Bit>,
     /// A deletion whose last write is requested; and a hole that is full, which ends no item of a move, or flat.
     pub erased: Signal<In, Committed>,
     pub fill_end: Signal<In, FillEnd>,
@@ -77,7 +78,7 @@ impl Logic for ChangeView {
         self.events.next.may_launch = (!self.may_ask.val())
             & (!self.wishes.val())
             & (!self.fill_asks.val())
-            & (!self.is_last_chance.val())
+            & (!(self.late_waits.val() & self.moving.val().returns))
             & (!self.contexts.val().solo_valid)
             & (!self.solo.val().is_at_work);
         self.events.next.all_rest = self.contexts.val().all_rest;

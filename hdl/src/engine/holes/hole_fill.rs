@@ -2,7 +2,8 @@
 //! of the interval and finds the ends of the next one, and then looks for the first test there.
 //!
 //! 1. A hole waits in line until those before it have got as far as a test or their end. The first in line is kept in a
-//!    register, so that its work begins one clock after that of the hole before it ends.
+//!    register, so that its work begins one clock after that of the hole before it ends. The register is filled again a
+//!    clock after it was emptied.
 //! 2. A test enters the queue of visits in a clock in which nothing else does (`pushes`). A hole that is full or flat
 //!    ends in a clock in which no other item does (`may_end`).
 //! 3. While the writer is full, no triangle is put and no hole ends.
@@ -142,7 +143,7 @@ impl Logic for HoleFill {
         self.is_free.next = (self.state.q.val() == FillState::Idle)
             | ((self.state.q.val() == FillState::Push) & self.pushes.val())
             | (self.ends_now.val() & self.may_end.val());
-        self.moves_up.next = self.line.valid.val() & ((!self.follows.q.val()) | self.is_free.val());
+        self.moves_up.next = self.line.valid.val() & (!self.follows.q.val());
         self.line.pop.next = self.moves_up.val();
 
         self.interval.hole.next = self.hole_now.val();

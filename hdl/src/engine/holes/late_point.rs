@@ -1,16 +1,17 @@
 //! The point of a move in place, which waits for a clock in which no visit fetches a fourth point: both use one port of
 //! the vertex memory, and a visit that meets the write is made again (M14).
 //!
-//! 1. A point is written in one of the five clocks after it has come. An item that begins may take the port first
-//!    (`is_taken`). In the clock of its last chance the point is written whatever is fetched, and no item may begin
-//!    (`is_last_chance`).
-//! 2. It is also written when the next point comes, so one place is enough. A clock in which one comes has no item that
-//!    begins.
-//! 3. The write comes 5 clocks after the end of the attempt at the latest. The first lock of the attempt is cleared 5
-//!    clocks after that end at the earliest, and a context that takes it then reads points 2 clocks later. So all of
-//!    them read the new point.
+//! 1. A point comes into a register, and from the clock after that it has five clocks. It is written in the first of
+//!    them in which no visit fetches; and, whatever is fetched, in the last of them and in that in which the next point
+//!    stands in the register. So one place behind the register is enough.
+//! 2. The port is free for it. A vertex that goes back into the mesh stores its point in the clock after its item has
+//!    begun. Such an item begins only while no point waits, in the register or behind it (`waits`). A point that comes
+//!    in the clock in which it begins is written two clocks later at the earliest.
+//! 3. The write comes 6 clocks after the end of the attempt at the latest. The first lock of the attempt is cleared 5
+//!    clocks after that end at the earliest. A visit can take it in the clock after that, and reads points 2 clocks
+//!    later, which is 8 clocks after the end. So all of them read the new point.
 //!
-//! Latency: a point is written 1 to 5 clocks after it has come.
+//! Latency: a point is written 2 to 6 clocks after it has come.
 
 use crate::engine::types::Arrival;
 use crate::prelude::*;
@@ -22,15 +23,14 @@ pub struct LatePoint {
     pub reset: Signal<In, Bit>,
     /// The point of a move that ends in place.
     pub comes: Signal<In, Arrival>,
-    /// A visit fetches a fourth point in this clock; the point of an item that begins takes the port.
+    /// A visit fetches a fourth point in this clock.
     pub fetches: Signal<In, Bit>,
-    pub is_taken: Signal<In, Bit>,
-    /// A point waits, and this is the last clock in which it can be written.
+    /// A point waits.
     pub waits: Signal<Out, Bit>,
-    pub is_last_chance: Signal<Out, Bit>,
     /// The point is written at this edge.
     pub writes: Signal<Out, Bit>,
     pub arrival: Signal<Out, Arrival>,
+    coming: DFF<Arrival>,
     late: DFF<Arrival>,
     waited: DFF<Bits<3>>,
     is_last: Signal<Local, Bit>,
@@ -40,13 +40,11 @@ pub struct LatePoint {
 impl Logic for LatePoint {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, late, waited);
+        dff_setup!(self, clock, coming, late, waited);
         self.is_last.next = self.late.q.val().came & self.waited.q.val().get_bit(2);
-        self.is_written.next = self.late.q.val().came
-            & (!self.is_taken.val())
-            & ((!self.fetches.val()) | self.comes.val().came | self.is_last.val());
-        self.waits.next = self.late.q.val().came;
-        self.is_last_chance.next = self.is_last.val();
+        self.is_written.next =
+            self.late.q.val().came & ((!self.fetches.val()) | self.coming.q.val().came | self.is_last.val());
+        self.waits.next = self.late.q.val().came | self.coming.q.val().came;
         self.arrival.next = self.late.q.val();
         self.arrival.next.came = self.is_written.val();
         self.writes.next = self.is_written.val();
@@ -55,11 +53,13 @@ impl Logic for LatePoint {
         if self.is_written.val() {
             self.late.d.next.came = false;
         }
-        if self.comes.val().came {
-            self.late.d.next = self.comes.val();
+        self.coming.d.next = self.comes.val();
+        if self.coming.q.val().came {
+            self.late.d.next = self.coming.q.val();
             self.waited.d.next = 0.into();
         }
         if self.reset.val() {
+            self.coming.d.next.came = false;
             self.late.d.next.came = false;
         }
     }

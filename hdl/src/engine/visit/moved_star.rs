@@ -10,7 +10,8 @@
 //!    fetched beside a write, because both use one port: the visit is made again (M14).
 //! 4. A chain has one visit in flight, so its carried vertex stays until the visit has read it.
 //!
-//! Latency: 2 clocks from a visit with its record to its corners and the point, 3 to `turned_after`.
+//! Latency: 2 clocks from the record of a visit to its corners and the point, 3 to `turned_after`. Whether a visit
+//! fetches a carried vertex, and which, is found in the clock before its record comes.
 
 use crate::engine::types::{
     context_bits, Arrival, Carried, ContextId, Moving, RingEntry, Start, TriangleId, Turned, VertexId, Visit,
@@ -30,8 +31,10 @@ pub struct MovedStar {
     pub start: Signal<In, Start>,
     /// The vertices opposite the last records of the chains of a context.
     pub carried: Signal<In, Carried>,
-    /// The visit whose record comes in this clock, if there is one (`valid`).
+    /// The visit whose record comes in the next clock (`early`), if there is one (`valid`); and the visit that `early`
+    /// had a clock ago, with its record.
     pub valid: Signal<In, Bit>,
+    pub early: Signal<In, Visit>,
     pub visit: Signal<In, Visit>,
     pub record: Signal<In, Record>,
     /// A point that is written at this edge; and the visit is a test that fetches a point.
@@ -55,6 +58,10 @@ pub struct MovedStar {
     inserting: LutMemory<CONTEXT_BITS, 1>,
     left: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
     right: LutMemory<CONTEXT_BITS, VERTEX_BITS>,
+    /// In the clock of a record: the vertex that moves is out of the mesh; the visit fetches a vertex, and that vertex.
+    out0: DFF<Bit>,
+    goes_round0: DFF<Bit>,
+    carried0: DFF<VertexId>,
     /// One clock after a visit: its context and record, and the point that was written.
     context1: DFF<ContextId>,
     record1: DFF<Record>,
@@ -98,7 +105,8 @@ impl MovedStar {
 impl Logic for MovedStar {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, context1, record1, written1, goes_round1, is_moved1, context2, is_moved2);
+        dff_setup!(self, clock, out0, goes_round0, carried0, context1, record1, written1, goes_round1);
+        dff_setup!(self, clock, is_moved1, context2, is_moved2);
         dff_setup!(self, clock, swaps0, swaps1, swaps2, torn2, torn3, meets_write1);
         clock!(self, clock, targets, vertices, inserting, left, right);
         self.targets.write_address.next = self.start.val().context;
@@ -120,25 +128,30 @@ impl Logic for MovedStar {
         self.right.write_data.next = self.carried.val().right;
         self.right.write_enable.next = self.carried.val().sets_right;
 
-        // The clock of the record: the carried vertex is fetched beside the corners.
+        // The clock before the record.
         self.first_place.next = 0.into();
         self.mark.next = 32.into();
-        self.entry.next = self.visit.val().entry;
-        self.inserting.read_address.next = self.visit.val().context;
-        self.left.read_address.next = self.visit.val().context;
-        self.right.read_address.next = self.visit.val().context;
+        self.entry.next = self.early.val().entry;
+        self.inserting.read_address.next = self.early.val().context;
+        self.left.read_address.next = self.early.val().context;
+        self.right.read_address.next = self.early.val().context;
         self.is_out.next = (!self.moving.val().runs) | self.inserting.read_data.val().any();
-        self.goes_round.next = self.valid.val()
+        self.out0.d.next = self.is_out.val();
+        self.goes_round0.d.next = self.valid.val()
             & (!self.is_out.val())
-            & self.visit.val().rotates
-            & self.visit.val().locks
+            & self.early.val().rotates
+            & self.early.val().locks
             & (self.entry.val() != self.first_place.val())
-            & (self.visit.val().after != self.mark.val());
-        self.fetches.next = self.goes_round.val();
-        self.fetch_id.next = self.left.read_data.val();
+            & (self.early.val().after != self.mark.val());
+        self.carried0.d.next = self.left.read_data.val();
         if self.entry.val().get_bit(5) {
-            self.fetch_id.next = self.right.read_data.val();
+            self.carried0.d.next = self.right.read_data.val();
         }
+
+        // The clock of the record: the carried vertex is fetched beside the corners.
+        self.goes_round.next = self.goes_round0.q.val();
+        self.fetches.next = self.goes_round.val();
+        self.fetch_id.next = self.carried0.q.val();
         self.record_of_test.next = self.visit.val().cavity_record;
         self.is_last_edge.next =
             self.visit.val().rotates & (!self.visit.val().locks) & self.record_of_test.val().get_bit(6);
@@ -147,7 +160,7 @@ impl Logic for MovedStar {
         self.written1.d.next = self.arrival.val();
         self.goes_round1.d.next = self.goes_round.val();
         self.meets_write1.d.next = self.arrival.val().came & (self.goes_round.val() | self.test_fetches.val());
-        self.is_moved1.d.next = (!self.is_out.val()) & (self.visit.val().locks | self.is_last_edge.val());
+        self.is_moved1.d.next = (!self.out0.q.val()) & (self.visit.val().locks | self.is_last_edge.val());
 
         // The clock after that finds the slot of the vertex that moves.
         self.vertices.read_address.next = self.context1.q.val();

@@ -3,7 +3,8 @@
 //! 1. A test turns its record and does not lock it, in a run of deletions or moves. The test of the last edge of a star
 //!    that moves has three vertices, and a point of its own ([`MovedStar`](super::MovedStar)).
 //!
-//! Latency: none from the record to the corners; 2 clocks to `is_point`.
+//! Latency: none from the record to the corners, 2 clocks from there to `is_point`; a visit is looked at in the clock
+//! before its record comes.
 
 use crate::engine::types::{TestVertices, VertexId, Visit};
 use crate::mesh::Record;
@@ -14,9 +15,10 @@ pub struct TestCorners {
     pub clock: Signal<In, Clock>,
     /// A run of deletions or moves is under way, and no solo insertion.
     pub hole_runs: Signal<In, Bit>,
-    /// The visit whose record comes in this clock, if there is one (`valid`), and the vertices of its test.
+    /// The visit whose record comes in the next clock, if there is one (`valid`).
     pub valid: Signal<In, Bit>,
     pub visit: Signal<In, Visit>,
+    /// The record of the visit that `visit` had a clock ago, and the vertices of its test.
     pub record: Signal<In, Record>,
     pub vertices: Signal<In, TestVertices>,
     /// The record with the vertices of the test, and these again.
@@ -29,6 +31,7 @@ pub struct TestCorners {
     pub fetch_id: Signal<Out, VertexId>,
     /// The point that comes out of the vertex memory is that of a test.
     pub is_point: Signal<Out, Bit>,
+    test0: DFF<Bit>,
     test1: DFF<Bit>,
     test2: DFF<Bit>,
     is_test: Signal<Local, Bit>,
@@ -37,9 +40,10 @@ pub struct TestCorners {
 impl Logic for TestCorners {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, test1, test2);
-        self.is_test.next =
+        dff_setup!(self, clock, test0, test1, test2);
+        self.test0.d.next =
             self.hole_runs.val() & self.valid.val() & self.visit.val().rotates & (!self.visit.val().locks);
+        self.is_test.next = self.test0.q.val();
         self.fetches.next = self.is_test.val();
         self.fetch_id.next = self.vertices.val().challenger;
         self.test1.d.next = self.is_test.val();

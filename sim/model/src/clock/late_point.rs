@@ -5,9 +5,9 @@
 use super::wires::Wires;
 use crate::predicate::Point;
 
-/// Number of clocks that a point waits at most, so that it is written five clocks after its attempt has ended at the
-/// latest. The first lock of the attempt is cleared at that edge at the earliest, and whoever takes it then reads
-/// points two clocks later.
+/// Number of clocks that a point waits at most behind the register into which it has come, so that it is written six
+/// clocks after its attempt has ended at the latest. The first lock of the attempt is cleared five clocks after that
+/// end at the earliest, and a visit that takes it in the next clock reads points two clocks later.
 const MOST: u32 = 4;
 
 /// A point that waits for a clock in which no visit fetches a fourth point, because both use one port.
@@ -23,15 +23,10 @@ impl LatePoint {
         Self { vertex, point, waited: 0 }
     }
 
-    /// Whether the point can wait no longer. No item begins in such a clock, because its point could need the port.
-    pub fn is_last_chance(&self) -> bool {
-        self.waited == MOST
-    }
-
     /// Whether the point wants the port in this clock, in which a visit `fetches` a point or not, and another point may
-    /// come.
+    /// come out of the register.
     pub fn is_due(&self, fetches: bool, comes: bool) -> bool {
-        !fetches || comes || self.is_last_chance()
+        !fetches || comes || self.waited == MOST
     }
 
     /// The vertex and its point.
@@ -40,8 +35,8 @@ impl LatePoint {
     }
 
     /// The point that waits after an edge.
-    pub fn after(was: Option<Self>, wires: &Wires) -> Option<Self> {
+    pub fn after(was: Option<Self>, coming: Option<Self>, wires: &Wires) -> Option<Self> {
         let waits = was.filter(|late| wires.new_point != Some(late.arrival()));
-        wires.moved.or(waits.map(|late| Self { waited: late.waited + 1, ..late }))
+        coming.or(waits.map(|late| Self { waited: late.waited + 1, ..late }))
     }
 }

@@ -44,8 +44,11 @@ pub(super) struct Questions {
     returns: VecDeque<usize>,
     /// The item that begins next.
     upcoming: Option<Upcoming>,
-    /// The events of the clock before that end items.
+    /// Whether the item that begins next was chosen in the clock before: it leaves the line in this one.
+    leaves: bool,
+    /// The events of the clock before that end items, and the context whose question has ended then.
     late: Events,
+    ended: Option<usize>,
     /// How long the items of the last run took, which only those who watch the model ask for.
     latencies: Latencies,
 }
@@ -74,7 +77,9 @@ impl Questions {
             changes: Changes::new(contexts, config.points),
             returns: VecDeque::new(),
             upcoming: None,
+            leaves: false,
             late: Events::default(),
+            ended: None,
             latencies: Latencies::default(),
         }
     }
@@ -141,8 +146,8 @@ impl Questions {
 
     /// Chooses the item that begins next, where there is room for one: the first item in the line, which comes only if
     /// no vertex waits to go back into the mesh, or else such a vertex.
-    fn choose(&mut self, launched: Option<(usize, Item)>) {
-        if let Some((context, item)) = launched {
+    fn choose(&mut self, first: Option<(usize, Item)>) {
+        if let Some((context, item)) = first {
             self.items[context] = item;
             self.upcoming = Some(Upcoming { context, item, record: self.hints[context], returns: false });
         } else {
@@ -185,16 +190,20 @@ impl Questions {
             false => self.upcoming.filter(|_| events.launch.is_some()),
         };
         let ends = match asks {
-            true => found.map(|_| context),
+            true => self.ended,
             false => {
                 let end = late.ends.or(late.fill_ends).or(late.solo_ends).filter(|_| self.changes.has_changed);
                 end.map(|end| end.context)
             }
         };
         let offer = self.offer();
-        let is_open = self.upcoming.is_none() || asks && begun.is_some();
+        self.ended = found.filter(|_| asks).map(|_| context);
+        let was_left = self.leaves;
+        let is_open = self.upcoming.is_none();
         let may_choose = is_open && self.returns.is_empty() && self.parts.has_room();
-        let done = self.queues.clock(offer, ends, may_choose);
+        let chosen = self.queues.first().filter(|_| may_choose);
+        self.leaves = chosen.is_some();
+        let accepted = self.queues.clock(offer, ends, was_left);
         let around = Around {
             is_active: self.port.is_active(),
             is_change: self.port.is_change(),
@@ -202,8 +211,8 @@ impl Questions {
             moves: self.moves(),
             dealt: self.port.dealt(),
             vertex: self.port.vertex(),
-            accepted: done.taken,
-            has_room: self.parts.has_room() && done.launched.is_none(),
+            accepted,
+            has_room: self.parts.has_two_places() && !was_left,
             contexts: signals.contexts,
             clears: signals.clears,
         };
@@ -215,14 +224,14 @@ impl Questions {
             self.upcoming = None;
         }
         if is_open {
-            self.choose(done.launched);
+            self.choose(chosen);
         }
         self.returns.extend(late.put_out);
         let walk = begun.filter(|_| asks).map(|it| Bundle::one(Visit::walk(it.context, it.record)));
         self.visits.clock(walk.unwrap_or(asked));
         let is_over = self.parts.is_over() && (asks || events.all_rest);
         let head = self.port.head(signals.signature);
-        let begins = done.launched.is_some() && self.port.is_active() || change.is_noted;
+        let begins = was_left && self.port.is_active() || change.is_noted;
         let part = came.or(change.came);
         self.latencies.clock(
             head.is_some(),

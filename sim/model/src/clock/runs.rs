@@ -166,7 +166,8 @@ impl ClockModel {
     pub(super) fn launch(&self, is_blocked: bool) -> Option<Launch> {
         let was = &self.registers;
         let may = !is_blocked && was.contexts.solo == 0 && !was.solo.is_at_work();
-        self.questions.as_ref().filter(|_| may).and_then(Questions::launch)
+        let lacks_port = |launch: &Launch| launch.returns && was.has_late_point();
+        self.questions.as_ref().filter(|_| may).and_then(Questions::launch).filter(|launch| !lacks_port(launch))
     }
 
     /// The events of the insertion engine that concern the items of changes.
@@ -203,7 +204,7 @@ impl ClockModel {
             put_out: wires.erased.filter(|_| wires.moves).map(|job| job.context),
             taken: wires.start.and_then(|start| start.id),
             launch: wires.launch,
-            fetches: self.pipeline.fetches() || wires.moves && wires.new_point.is_some() || was.late_point.is_some(),
+            fetches: self.pipeline.fetches() || wires.moves && wires.new_point.is_some() || was.has_late_point(),
             all_rest: was.contexts.rest,
             arrival: was.command.came.then(|| (was.command.came_id, self.memory.vertex(was.command.came_id))),
             arrived: was.command.arrived,

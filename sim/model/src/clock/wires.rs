@@ -51,8 +51,11 @@ pub(super) struct Registers {
     pub write: Write,
     /// The write that the filling of a hole requests.
     pub filled: Write,
-    /// The point of a move in place that is not written yet.
+    /// The point of the move in place that has ended in the clock before, and the one that waits to be written.
+    pub coming_point: Option<LatePoint>,
     pub late_point: Option<LatePoint>,
+    /// The vertex of an item that has begun in the clock before, whose point is stored in this one.
+    pub storing: Option<(u32, Point)>,
     /// Number of vertices that have been deleted since the last clear, and of those whose ids are kept.
     pub deleted: u32,
     pub kept: u32,
@@ -70,6 +73,11 @@ impl Registers {
         registers.command.jobs = 1;
         registers.contexts.reset(config.contexts);
         registers
+    }
+
+    /// Whether the point of a move in place is not written yet.
+    pub(super) fn has_late_point(&self) -> bool {
+        self.coming_point.is_some() || self.late_point.is_some()
     }
 }
 
@@ -99,7 +107,9 @@ pub(super) struct Wires {
     pub new_vertex: Option<(u32, Point)>,
     /// The move in place that ends, whose point is to be written.
     pub moved: Option<LatePoint>,
-    /// The vertex whose point is stored with its item, or as that of a move in place.
+    /// The vertex whose point is stored in the next clock, because its item begins. The vertex whose point is stored in
+    /// this one, for that reason or as that of a move in place.
+    pub stored: Option<(u32, Point)>,
     pub new_point: Option<(u32, Point)>,
     /// The walk that a context starts.
     pub start: Option<Start>,
@@ -172,8 +182,7 @@ impl ClockModel {
         let holes = self.holes.as_ref();
         let test = holes.and_then(Holes::push_request);
         let is_free = !lacks_queue && wanted.is_none();
-        let must_write = was.late_point.is_some_and(|late| late.is_last_chance());
-        let launch = self.launch(!is_free || test.is_some() || must_write);
+        let launch = self.launch(!is_free || test.is_some());
         let ends = |outcome: Outcome| outcome.release.is_some() || outcome.commit.is_some() || outcome.duplicate;
         // Whether a visit of a star is the last one of its attempt is known too late, so each that may be counts.
         let may_settle = |done: &Completion| self.may_settle(done);
@@ -182,7 +191,7 @@ impl ClockModel {
         let holds = holes.is_some_and(Holes::writes_next);
         let moved = outcome.filter(|outcome| outcome.moves_in_place).map(|outcome| outcome.context);
         let moved = moved.map(|context| LatePoint::new(self.memory.point_id[context], self.memory.target[context]));
-        let late = was.late_point.filter(|late| late.is_due(self.pipeline.fetches(), moved.is_some()));
+        let late = was.late_point.filter(|late| late.is_due(self.pipeline.fetches(), was.coming_point.is_some()));
         let stored = launch.filter(|launch| launch.stores).map(|launch| (launch.item.vertex, launch.item.place));
         Wires {
             word,
@@ -196,7 +205,8 @@ impl ClockModel {
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.finished_points.is_done(was) && rests,
             moved,
-            new_point: stored.or(late.map(|late| late.arrival())),
+            stored,
+            new_point: was.storing.or(late.map(|late| late.arrival())),
             new_vertex: word.filter(|_| takes_point).map(|word| (was.command.arrived, point(word))),
             start,
             launch,

@@ -82,6 +82,7 @@ impl Fill {
 
     pub(super) fn clock(&mut self, pushes: bool, ends: bool, holes: &mut [Hole], writer: &mut Writer, memory: &Memory) {
         self.queue.extend(self.arrival.take());
+        let is_open = self.follower.is_none();
         self.work = match self.work {
             Some(Work::Step(context, hole)) if !writer.is_full() => Some(self.step(context, hole, writer)),
             Some(Work::Look(context, hole)) => Some(go_on(context, hole)),
@@ -98,7 +99,7 @@ impl Fill {
             None => self.follow(),
             work => work,
         };
-        if self.follower.is_none() {
+        if is_open {
             self.follower = self.queue.pop_front();
         }
     }

@@ -166,7 +166,8 @@ impl Changes {
         let has_moved = |part: &Part| part.outcome != Outcome::Duplicate && around.moves && !done.is_noted;
         let moved = done.came.filter(has_moved).map(|part| part.located.vertices[0]);
         let remarked = early.filter(|end| end.early.is_some()).map(|end| end.vertex).or(moved);
-        let launched = events.launch.filter(|_| !finds).map(|launch| launch.item.vertex);
+        // The vertex of an item of a run has been marked by its check.
+        let launched = events.launch.filter(|_| !around.is_active).map(|launch| launch.item.vertex);
         let marked = remarked.or(launched).or(events.taken);
         let is_taken = unmarked.is_some() || marked.is_some();
         let (was_known, was_seeding, vertex) = (self.known, self.seeding, around.vertex);

@@ -8,15 +8,6 @@ use std::collections::VecDeque;
 /// Most items that wait for a context.
 const DEPTH: usize = 32;
 
-/// The result of an edge.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Done {
-    /// Whether the item on offer is taken.
-    pub taken: bool,
-    /// The item that begins, with its context.
-    pub launched: Option<(usize, Item)>,
-}
-
 #[derive(Clone, Debug)]
 pub(super) struct ItemQueues {
     /// Whether a context has no item.
@@ -46,8 +37,14 @@ impl ItemQueues {
         self.idle.iter().all(|&idle| idle)
     }
 
-    /// Simulates one edge, with an item on offer and a context whose item ends.
-    pub(super) fn clock(&mut self, offer: Option<(usize, Item)>, ends: Option<usize>, may_launch: bool) -> Done {
+    /// The first item in the line, with its context. An item that joins the line stands in it at once.
+    pub(super) fn first(&self) -> Option<(usize, Item)> {
+        self.beginners.front().copied().or(self.fetched[0]).or(self.joined)
+    }
+
+    /// Simulates one edge, with an item on offer and a context whose item ends. The first item may leave the line.
+    /// Returns whether the item on offer is taken.
+    pub(super) fn clock(&mut self, offer: Option<(usize, Item)>, ends: Option<usize>, leaves: bool) -> bool {
         let [comes, comes_next] = self.fetched;
         let begins = offer.filter(|&(context, _)| self.idle[context] && comes_next.is_none());
         let stores = offer.filter(|&(context, _)| {
@@ -55,7 +52,9 @@ impl ItemQueues {
         });
         self.beginners.extend(comes.or(self.joined));
         self.joined = begins;
-        let launched = if may_launch { self.beginners.pop_front() } else { None };
+        if leaves {
+            self.beginners.pop_front();
+        }
         if let Some((context, _)) = begins {
             self.idle[context] = false;
         }
@@ -68,6 +67,6 @@ impl ItemQueues {
         if let Some((context, item)) = stores {
             self.waiting[context].push_back(item);
         }
-        Done { taken: begins.is_some() || stores.is_some(), launched }
+        begins.is_some() || stores.is_some()
     }
 }

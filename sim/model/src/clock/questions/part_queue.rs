@@ -59,6 +59,10 @@ impl PartQueue {
         self.places < PLACES
     }
 
+    pub(super) fn has_two_places(&self) -> bool {
+        self.places + 1 < PLACES
+    }
+
     pub(super) fn offered(&self) -> Option<Beat> {
         self.valid.then_some(self.offered)
     }

@@ -7,8 +7,8 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     NextItem,
-    [reset, returns, returned, waits, has_room, queued, start_record, goes, refills],
-    [takes_returned, takes_queued, context_id, is_ready, launch, record, is_return],
+    [reset, returns, returned, waits, has_room, queued, start_record, goes],
+    [takes_returned, pops, context_id, is_ready, launch, record, is_return],
     clock
 );
 
@@ -26,13 +26,14 @@ fn an_item_waits_in_the_register_until_it_begins() {
     let mut random = SplitMix64::new(97);
     let mut block = Stepper::new("living_next_item", NextItem::default(), 1);
     let mut kept: Option<Kept> = None;
-    // Items that began; returns chosen; items chosen in the clock in which another one began; items that found no room;
-    // returns that waited for the clock after an item began.
-    let mut seen = [0; 5];
+    // The item on offer was chosen in the clock before, and leaves the queues in this one.
+    let mut leaves = false;
+    // Items that began; returns chosen; items chosen; items that found no room; returns that waited for the clock after
+    // an item began; items that left the queues while another one stood there.
+    let mut seen = [0; 6];
     for clock in 0..6_000 {
         let reset = clock < 3 || random.once_in(300);
-        let is_question = clock % 1_000 < 500;
-        let returns = !is_question && random.once_in(3);
+        let returns = random.once_in(3);
         let (waits, has_room) = (random.once_in(2), !random.once_in(4));
         let items = [(random.below(16), random.bits(24)), (random.below(16), random.bits(24))];
         let record = random.bits(15);
@@ -47,16 +48,15 @@ fn an_item_waits_in_the_register_until_it_begins() {
         }
         block.set("start_record", record);
         block.set("goes", goes);
-        block.set("refills", goes && is_question);
         block.settle();
 
-        let is_open = kept.is_none() || goes && is_question;
-        let takes_returned = kept.is_none() && returns;
+        let is_open = kept.is_none();
+        let takes_returned = is_open && returns;
         let takes_queued = is_open && !returns && waits && has_room;
         if clock >= 3 {
             block.expect("is_ready", kept.is_some());
             block.expect("takes_returned", takes_returned);
-            block.expect("takes_queued", takes_queued);
+            block.expect("pops", leaves);
             block.expect("context_id", items[usize::from(!returns)].0);
             if let Some(Kept { context, number, record, is_return }) = kept {
                 block.expect("launch_context", context);
@@ -68,9 +68,11 @@ fn an_item_waits_in_the_register_until_it_begins() {
         block.edge();
         seen[0] += u32::from(goes);
         seen[1] += u32::from(takes_returned);
-        seen[2] += u32::from(takes_queued && goes);
+        seen[2] += u32::from(takes_queued);
         seen[3] += u32::from(is_open && !returns && waits && !has_room);
-        seen[4] += u32::from(goes && returns && !is_question);
+        seen[4] += u32::from(goes && returns);
+        seen[5] += u32::from(leaves && waits);
+        leaves = takes_queued && !reset;
         if goes {
             kept = None;
         }

@@ -9,7 +9,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     PartQueue,
     [reset, head, begins, came, response.ready],
-    [has_room, response.valid, response.data, response.both, response.last, is_over],
+    [has_room, has_two_places, response.valid, response.data, response.both, response.last, is_over],
     clock
 );
 
@@ -96,6 +96,9 @@ fn part_queue_gives_all_parts_in_their_order() {
             if places < PLACES {
                 block.expect("has_room", true);
             }
+            if places + 1 < PLACES {
+                block.expect("has_two_places", true);
+            }
             let is_given = block.is("response_valid");
             if is_given {
                 block.expect("response_data", *due.front().expect("a beat that is due"));
@@ -137,6 +140,7 @@ fn part_queue_has_room_for_32_parts() {
     for place in 0..=PLACES {
         set(&mut block, Inputs { begins: place < PLACES, ..Inputs::default() });
         block.expect("has_room", place < PLACES);
+        block.expect("has_two_places", place + 1 < PLACES);
         block.edge();
     }
 }

@@ -7,7 +7,7 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     RunPort,
     [reset, begins, opcode, signature, contexts, has_mesh, command.valid, command.data, taken, is_over],
-    [command.ready, dealt, is_change, is_delete, is_move, vertex, head, is_active, is_nearest],
+    [command.ready, dealt, is_question, is_change, is_delete, is_move, vertex, head, is_active, is_nearest],
     clock
 );
 
@@ -98,6 +98,9 @@ impl Run {
             block.set("is_over", heads == 0 || is_done && rest == 0);
             block.settle();
             if !block.is("is_active") {
+                for kind in ["is_question", "is_change", "is_delete", "is_move"] {
+                    block.expect(kind, false);
+                }
                 break;
             }
             if block.is("head_valid") {
@@ -118,6 +121,7 @@ impl Run {
                 block.expect("dealt_item_number", dealt & 0xff_ffff);
                 let end = ((dealt + 1) * self.item_words()) as usize;
                 block.expect("dealt_item_place", given[end - 1]);
+                block.expect("is_question", self.opcode < INSERT_AS);
                 block.expect("is_change", self.opcode >= INSERT_AS);
                 block.expect("is_delete", self.opcode == DELETE);
                 block.expect("is_move", self.opcode == MOVE);

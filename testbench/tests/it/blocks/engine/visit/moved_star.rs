@@ -11,7 +11,7 @@ use incircle_testkit::SplitMix64;
 
 named_ports!(
     MovedStar,
-    [moving, start, carried, valid, visit, record, arrival, test_fetches, corners, fetched, turned],
+    [moving, start, carried, valid, early, visit, record, arrival, test_fetches, corners, fetched, turned],
     [fetches, fetch_id, corners_after, is_moved, target, turned_after],
     clock
 );
@@ -38,6 +38,41 @@ struct Wanted {
     is_torn: bool,
 }
 
+/// A visit.
+#[derive(Clone, Copy, Debug, Default)]
+struct Visit {
+    valid: bool,
+    context: usize,
+    rotates: bool,
+    locks: bool,
+    entry: u64,
+    after: u64,
+    cavity_record: u64,
+}
+
+impl Visit {
+    fn random(random: &mut SplitMix64) -> Self {
+        Self {
+            valid: !random.once_in(8),
+            context: random.below(CONTEXTS as u64) as usize,
+            rotates: !random.once_in(4),
+            locks: !random.once_in(4),
+            entry: if random.once_in(4) { 0 } else { random.bits(6) },
+            after: if random.once_in(3) { 32 } else { random.bits(6) },
+            cavity_record: random.bits(7),
+        }
+    }
+
+    fn set(&self, block: &mut Stepper<MovedStar>, port: &str) {
+        block.set(&format!("{port}_context"), self.context as u64);
+        block.set(&format!("{port}_rotates"), self.rotates);
+        block.set(&format!("{port}_locks"), self.locks);
+        block.set(&format!("{port}_entry"), self.entry);
+        block.set(&format!("{port}_after"), self.after);
+        block.set(&format!("{port}_cavity_record"), self.cavity_record);
+    }
+}
+
 #[test]
 fn stars_of_moves_are_judged_by_the_new_place() {
     let mut random = SplitMix64::new(96);
@@ -47,28 +82,26 @@ fn stars_of_moves_are_judged_by_the_new_place() {
     let mut wanted: VecDeque<Option<Wanted>> = VecDeque::from([None, None, None]);
     let mut seen = [0; 4];
     let mut runs = true;
+    let mut early = Visit::default();
     for clock in 0..20_000 {
         if clock % 50 == 0 {
             runs = !random.once_in(4);
         }
         let all_known = known.iter().all(|&known| known);
-        let context = random.below(CONTEXTS as u64) as usize;
+        // The visit whose record comes in this clock, and the one whose record comes in the next.
+        let visit = early;
+        early = Visit::random(&mut random);
+        // A context takes a vertex, or its chains carry others on, while it has no visit in these stages.
+        let is_quiet = |clock: u64| clock % 50 == 0 || clock % 50 >= 46;
+        early.valid &= all_known && !is_quiet(clock + 1);
+        let Visit { valid, context, rotates, locks, entry, after, cavity_record } = visit;
         let own = stored[context];
-        let [rotates, locks] = [!random.once_in(4), !random.once_in(4)];
-        let entry = if random.once_in(4) { 0 } else { random.bits(6) };
-        let after = if random.once_in(3) { 32 } else { random.bits(6) };
-        let cavity_record = random.bits(7);
         let slot = random.below(6) as usize;
         let v = [0, 1, 2].map(|k| if k == slot { own.vertex } else { random.bits(15) | 1 << 14 });
-        let valid = all_known && !random.once_in(8);
         block.set("moving_runs", runs);
-        block.set("valid", valid);
-        block.set("visit_context", context as u64);
-        block.set("visit_rotates", rotates);
-        block.set("visit_locks", locks);
-        block.set("visit_entry", entry);
-        block.set("visit_after", after);
-        block.set("visit_cavity_record", cavity_record);
+        block.set("valid", early.valid);
+        early.set(&mut block, "early");
+        visit.set(&mut block, "visit");
         for (k, vertex) in v.into_iter().enumerate() {
             block.set(&format!("record_v{k}"), vertex);
         }
@@ -89,9 +122,7 @@ fn stars_of_moves_are_judged_by_the_new_place() {
         block.set("turned_again", again);
         block.set("turned_v0", turned_v0);
         block.set("turned_slot", turned_slot);
-        // A context takes a vertex, or its chains carry others on, while it has no visit in these stages.
         let changed = random.below(CONTEXTS as u64) as usize;
-        let is_quiet = !all_known || clock % 50 >= 46;
         let may_change = !all_known || clock % 50 >= 48;
         let takes = may_change && flip(&mut random);
         let new = Stored {
@@ -112,10 +143,6 @@ fn stars_of_moves_are_judged_by_the_new_place() {
         block.set("carried_sets_right", sets_right);
         block.set("carried_left", new.left);
         block.set("carried_right", new.right);
-        if is_quiet {
-            block.set("valid", false);
-        }
-        let valid = valid && !is_quiet;
         block.settle();
 
         let is_out = !runs || own.inserts;
