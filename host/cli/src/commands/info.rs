@@ -36,7 +36,7 @@ pub fn run(arguments: &InfoArguments) -> Result<(), Failure> {
              cavities of up to {} boundary edges\n{}{board}{card}",
             backend.name,
             identity.ring_capacity,
-            about_runs(&identity, keeps_meshes)
+            about_runs(identity, keeps_meshes)
         )
     })
 }

@@ -92,7 +92,7 @@ fn stars_of_moves_are_judged_by_the_new_place() {
         let visit = early;
         early = Visit::random(&mut random);
         // A context takes a vertex, or its chains carry others on, while it has no visit in these stages.
-        let is_quiet = |clock: u64| clock % 50 == 0 || clock % 50 >= 46;
+        let is_quiet = |clock: u64| !(1..46).contains(&(clock % 50));
         early.valid &= all_known && !is_quiet(clock + 1);
         let Visit { valid, context, rotates, locks, entry, after, cavity_record } = visit;
         let own = stored[context];
