@@ -117,7 +117,7 @@ pub struct Questions {
     launch: Signal<Local, Launch>,
     item: Signal<Local, Item>,
     launches: Signal<Local, Bit>,
-    begins_item: Signal<Local, Bit>,
+    leaves_queues: Signal<Local, Bit>,
     late_events: Signal<Local, ChangeEvents>,
     next_launch: Signal<Local, Launch>,
     next_item: Signal<Local, Item>,
@@ -199,9 +199,9 @@ impl Logic for Questions {
         self.upcoming.waits.next = self.queues.waits.val();
         self.upcoming.queued.next = self.queues.launch.val();
         self.upcoming.has_room.next = self.parts.has_room.val();
-        self.begins_item.next = self.upcoming.pops.val();
-        self.queues.launches.next = self.begins_item.val();
-        self.line.begins.next = self.begins_item.val();
+        self.leaves_queues.next = self.upcoming.pops.val();
+        self.queues.launches.next = self.leaves_queues.val();
+        self.line.begins.next = self.leaves_queues.val();
         self.line.begun.next = self.queues.launch.val();
         self.line.goes.next = self.upcoming.takes_returned.val();
         self.hints.read_address.next = self.upcoming.context_id.val();
@@ -261,7 +261,7 @@ impl Logic for Questions {
         self.next_item.next = self.next_launch.val().item;
         self.numbers.write_address.next = self.next_launch.val().context;
         self.numbers.write_data.next = self.next_item.val().number;
-        self.numbers.write_enable.next = self.begins_item.val();
+        self.numbers.write_enable.next = self.leaves_queues.val();
 
         // A walk can end before its item does, because outside the hull a search follows. The next walk of the context
         // begins where the walk has ended, and not where the search has.
@@ -296,7 +296,7 @@ impl Logic for Questions {
 
         self.parts.reset.next = self.reset.val();
         self.parts.head.next = self.port.head.val();
-        self.parts.begins.next = (self.begins_item.val() & self.port.is_active.val()) | self.changes.is_noted.val();
+        self.parts.begins.next = (self.leaves_queues.val() & self.port.is_active.val()) | self.changes.is_noted.val();
 
         self.changes.reset.next = self.reset.val();
         self.changes.clears.next = self.clears.val();
@@ -321,7 +321,7 @@ impl Logic for Questions {
         self.changes.corner.next = self.late.late_corner.val();
         self.changes.launches.next = self.launches.val();
         self.changes.launch.next = self.launch.val();
-        self.changes.has_room.next = self.parts.has_two_places.val() & (!self.begins_item.val());
+        self.changes.has_room.next = self.parts.has_two_places.val() & (!self.leaves_queues.val());
         self.has_changed.next = self.changes.has_changed.val();
         self.is_pending.next = self.changes.is_pending.val();
         self.point_waits.next = self.changes.point_waits.val();

@@ -101,10 +101,12 @@ pub struct RunPort {
     /// The first word of an item of two has come.
     vertex_came: DFF<Bit>,
     is_vertex: Signal<Local, Bit>,
-    is_insert: Signal<Local, Bit>,
-    is_other: Signal<Local, Bit>,
+    starts_insert: Signal<Local, Bit>,
+    starts_delete: Signal<Local, Bit>,
+    starts_move: Signal<Local, Bit>,
+    starts_change: Signal<Local, Bit>,
     ends: Signal<Local, Bit>,
-    change_code: Signal<Local, Bits<8>>,
+    insert_code: Signal<Local, Bits<8>>,
     delete_code: Signal<Local, Bits<8>>,
     move_code: Signal<Local, Bits<8>>,
     starts: Signal<Local, Bit>,
@@ -131,7 +133,7 @@ impl Logic for RunPort {
         dff_setup!(self, clock, state, code, count, left, some_are_left, status, answers, vertex_came);
         clock!(self, clock, dealer);
         self.one.next = 1.into();
-        self.change_code.next = 11.into();
+        self.insert_code.next = 11.into();
         self.delete_code.next = 12.into();
         self.move_code.next = 13.into();
         self.is_delete.next = self.deletes.q.val();
@@ -173,9 +175,10 @@ impl Logic for RunPort {
         self.answer.gives.next = self.answers.q.val();
         self.head.next = self.answer.head.val();
 
-        self.is_insert.next = self.opcode.val() == self.change_code.val();
-        self.is_other.next =
-            (self.opcode.val() == self.delete_code.val()) | (self.opcode.val() == self.move_code.val());
+        self.starts_insert.next = self.opcode.val() == self.insert_code.val();
+        self.starts_delete.next = self.opcode.val() == self.delete_code.val();
+        self.starts_move.next = self.opcode.val() == self.move_code.val();
+        self.starts_change.next = self.starts_insert.val() | self.starts_delete.val() | self.starts_move.val();
         self.ends.next = false;
         self.answers.d.next = false;
         match self.state.q.val() {
@@ -183,11 +186,11 @@ impl Logic for RunPort {
                 self.vertex_came.d.next = false;
                 if self.starts.val() {
                     self.code.d.next = self.opcode.val();
-                    self.deletes.d.next = self.opcode.val() == self.delete_code.val();
-                    self.moves.d.next = self.opcode.val() == self.move_code.val();
-                    self.has_two_words.d.next = self.is_insert.val() | (self.opcode.val() == self.move_code.val());
-                    self.changes.d.next = self.is_insert.val() | self.is_other.val();
-                    self.asks.d.next = (!self.is_insert.val()) & (!self.is_other.val());
+                    self.deletes.d.next = self.starts_delete.val();
+                    self.moves.d.next = self.starts_move.val();
+                    self.has_two_words.d.next = self.starts_insert.val() | self.starts_move.val();
+                    self.changes.d.next = self.starts_change.val();
+                    self.asks.d.next = !self.starts_change.val();
                     self.active.d.next = true;
                     self.state.d.next = RunState::Count;
                 }
@@ -233,6 +236,7 @@ impl Logic for RunPort {
                 }
             }
             _ => {
+                self.ends.next = true;
                 self.state.d.next = RunState::Idle;
             }
         }

@@ -51,6 +51,12 @@ pub(crate) fn repeated_place(place: usize, vertices: usize, contexts: u32) -> us
     }
 }
 
+/// Deals an order to contexts from its beginning: place `j` belongs to context `j mod contexts`, and the places of
+/// context `c` get the `c`-th run of the order. With no contexts, as with one, the order stays.
+pub(crate) fn deal_from_start(order: &mut [u32], contexts: usize) {
+    deal_round(order, FIRST, contexts);
+}
+
 /// Deals a round that begins at place `first` of the order.
 fn deal_round(round: &mut [u32], first: usize, contexts: usize) {
     if contexts < 2 || round.is_empty() {

@@ -378,8 +378,8 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         name: "refusal_takes_no_place",
         pieces: &[piece(
             "parts$begins = @;",
-            "(begins_item & port$is_active) | changes$is_noted",
-            "begins_item & port$is_active",
+            "(leaves_queues & port$is_active) | changes$is_noted",
+            "leaves_queues & port$is_active",
         )],
     },
     Fault {

@@ -30,6 +30,7 @@ pub struct LatePoint {
     /// The point is written at this edge.
     pub writes: Signal<Out, Bit>,
     pub arrival: Signal<Out, Arrival>,
+    /// The point that came in the clock before; the point behind it, and the number of clocks that it has waited.
     coming: DFF<Arrival>,
     late: DFF<Arrival>,
     waited: DFF<Bits<3>>,

@@ -122,7 +122,7 @@ pub struct VisitPipeline {
     kept_near: Vec<DFF<NearVerdict>>,
     kept_turn: Vec<DFF<Bit>>,
     /// The visit in clock 1.
-    early_visit: Vec<DFF<Visit>>,
+    visit1: Vec<DFF<Visit>>,
     test: Vec<TestCorners>,
     moved: Vec<MovedStar>,
     shifted: Signal<Local, Bits<15>>,
@@ -167,7 +167,7 @@ impl VisitPipeline {
             kept_sides: vec![DFF::default()],
             kept_near: vec![DFF::default()],
             kept_turn: vec![DFF::default()],
-            early_visit: vec![DFF::default()],
+            visit1: vec![DFF::default()],
             test: vec![TestCorners::default()],
             moved: vec![MovedStar::new(config)],
             moving: vec![Signal::default()],
@@ -273,10 +273,10 @@ impl Logic for VisitPipeline {
             // A test of a hole has four vertices in the place of a record.
             self.test[i].clock.next = self.clock.val();
             self.test[i].hole_runs.next = self.hole_runs[i].val();
-            self.early_visit[i].clock.next = self.clock.val();
-            self.early_visit[i].d.next = self.issue.visit.val();
+            self.visit1[i].clock.next = self.clock.val();
+            self.visit1[i].d.next = self.issue.visit.val();
             self.test[i].valid.next = self.valid.q.val().get_bit(0) & (!self.reset.val());
-            self.test[i].visit.next = self.early_visit[i].q.val();
+            self.test[i].visit.next = self.visit1[i].q.val();
             self.test[i].record.next = self.triangles.record.val();
             self.test[i].vertices.next = self.test_vertices[i].val();
             self.issued[i].next = self.issue.visit.val();
@@ -298,7 +298,7 @@ impl Logic for VisitPipeline {
             self.moved[i].start.next = self.start[i].val();
             self.moved[i].carried.next = self.carried[i].val();
             self.moved[i].valid.next = self.valid.q.val().get_bit(0) & (!self.reset.val());
-            self.moved[i].early.next = self.early_visit[i].q.val();
+            self.moved[i].early.next = self.visit1[i].q.val();
             self.moved[i].visit.next = self.reader.visit_at_record.val();
             self.moved[i].record.next = self.triangles.record.val();
             self.moved[i].arrival.next = self.arrival.val();

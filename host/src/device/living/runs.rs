@@ -12,6 +12,7 @@ use super::names::Place;
 use super::session::LivingSession;
 use super::LivingMesh;
 use crate::error::Error;
+use crate::job::deal::deal_from_start;
 use incircle_geometry::living::Location;
 use incircle_geometry::order::hilbert;
 use incircle_geometry::Point;
@@ -38,21 +39,17 @@ impl Pending {
 /// The places of items in a run: along the Hilbert curve, or `backwards` along it, and cut into a stretch for each
 /// context. Item `i` belongs to context `i` modulo their number.
 fn dealt(places: &[Point], contexts: usize, backwards: bool) -> Vec<u32> {
-    let curve = hilbert(places);
-    let at = |stretch: &[u32], place: usize| match backwards {
-        true => stretch[stretch.len() - 1 - place],
-        false => stretch[place],
+    let mut order = hilbert(places);
+    deal_from_start(&mut order, contexts);
+    if !backwards {
+        return order;
+    }
+    let mirrored = |place: usize| {
+        let context = place % contexts;
+        let last = (order.len() - 1 - context) / contexts;
+        order[(last - place / contexts) * contexts + context]
     };
-    let count = curve.len();
-    let mut rest = &curve[..];
-    let stretches: Vec<&[u32]> = (0..contexts)
-        .map(|context| {
-            let (stretch, after) = rest.split_at((count + contexts - 1 - context) / contexts);
-            rest = after;
-            stretch
-        })
-        .collect();
-    (0..count).map(|place| at(stretches[place % contexts], place / contexts)).collect()
+    (0..order.len()).map(mirrored).collect()
 }
 
 impl LivingSession<'_> {
