@@ -254,7 +254,7 @@ impl Logic for InsertionEngine {
             self.pipeline.carried[i].next = self.insertions.carried[i].val();
             self.late[i].clock.next = self.clock.val();
             self.late[i].reset.next = self.reset.val();
-            self.late[i].comes.next = self.insertions.moved[i].val();
+            self.late[i].comes.next = self.insertions.late_point[i].val();
             self.late[i].fetches.next = self.pipeline.fetches[i].val();
             self.insertions.late_waits[i].next = self.late[i].waits.val();
             if self.late[i].writes.val() {
@@ -262,15 +262,14 @@ impl Logic for InsertionEngine {
             }
             self.pipeline.test_vertices[i].next = self.insertions.test_vertices[i].val();
             // Fetches and writes of points share a port. While a point waits, nobody else may read its vertex.
-            self.fetches[i].next = self.pipeline.fetches[i].val()
-                | self.late[i].waits.val()
-                | (self.insertions.hole_runs[i].val() & self.launch_stores[i].val());
+            self.fetches[i].next =
+                self.pipeline.fetches[i].val() | self.late[i].waits.val() | self.launch_stores[i].val();
             self.fetched[i].next = self.pipeline.fetched.val();
             self.erases[i].next = self.insertions.erases[i].val();
             self.returns[i].next = self.insertions.returns[i].val();
             self.solo.records.next = self.insertions.solo_first[i].val();
             self.solo.own_third[i].next = self.insertions.solo_second[i].val();
-            if self.insertions.hole_runs[i].val() {
+            if self.change_runs[i].val() {
                 self.pipeline.fetch_id.next = self.wanted[i].val();
             }
             if self.insertions.fill_pushes[i].val() {

@@ -67,9 +67,10 @@ pub struct Insertions {
     /// In such a core: ids are kept for the vertex of the item that begins. A run of deletions is under way, or one of
     /// moves, with the item that begins, or one of either (`hole_runs`). The visit that reads its record, and the
     /// vertices of its test. Whether the corners of the completed visit turn left, and the point against its sides. The
-    /// point of a move in place that ends; the vertices that chains carry; a test that enters the queue; the two ids of
-    /// a solo insertion; a vertex is put out of the mesh, or has come back. The point of a move in place waits to be
-    /// written, so no vertex goes back into the mesh.
+    /// point of a move in place that ends, or a vertex that is out of the mesh, with the word that takes the place of its
+    /// point (`late_point`); the vertices that chains carry; a test that enters the queue; the two ids of a solo
+    /// insertion; a vertex is put out of the mesh, or has come back. Such a point waits to be written (`late_waits`), so
+    /// no vertex goes back into the mesh.
     pub launch_owns: Vec<Signal<In, Bit>>,
     pub deletes: Vec<Signal<In, Bit>>,
     pub moving: Vec<Signal<In, Moving>>,
@@ -78,7 +79,7 @@ pub struct Insertions {
     pub turns_left: Vec<Signal<In, Bit>>,
     pub sides: Vec<Signal<In, Sides>>,
     pub hole_runs: Vec<Signal<Out, Bit>>,
-    pub moved: Vec<Signal<Out, Arrival>>,
+    pub late_point: Vec<Signal<Out, Arrival>>,
     pub carried: Vec<Signal<Out, Carried>>,
     pub fill_push: Vec<Signal<Out, Bundle>>,
     pub fill_pushes: Vec<Signal<Out, Bit>>,
@@ -131,7 +132,7 @@ impl Insertions {
             sides: vec![Signal::default()],
             hole_runs: vec![Signal::default()],
             late_waits: vec![Signal::default()],
-            moved: vec![Signal::default()],
+            late_point: vec![Signal::default()],
             carried: vec![Signal::default()],
             fill_push: vec![Signal::default()],
             fill_pushes: vec![Signal::default()],
@@ -245,7 +246,6 @@ impl Logic for Insertions {
             self.holes[i].sides.next = self.sides[i].val();
             self.hole_runs[i].next = self.holes[i].runs.val();
             self.view[i].late_waits.next = self.late_waits[i].val();
-            self.moved[i].next = self.holes[i].moved.val();
             self.carried[i].next = self.holes[i].carried.val();
             self.commits.holds[i].next = self.holes[i].writes_next.val();
             self.merge[i].commits.next = self.attempts.commit.val().valid;
@@ -300,7 +300,14 @@ impl Logic for Insertions {
             self.commits.start[i].next = self.dispatcher.start.val();
             self.commits.owns[i].next = self.launches[i].val() & self.launch_owns[i].val();
             self.commits.solo_start[i].next = self.dispatcher.solo_start.val();
-            self.commits.solo_is_at_work[i].next = self.solo.val().is_at_work;
+            self.commits.solo[i].next = self.solo.val();
+            self.commits.moving[i].next = self.moving[i].val();
+            self.commits.visit[i].next = self.completion.val().visit;
+            self.commits.vertex[i].next = self.attempts.vertex[i].val();
+            self.commits.is_duplicate[i].next = self.attempts.outcome.val().duplicate & (!self.holes[i].finds.val());
+            self.view[i].owns.next = self.commits.owned[i].val();
+            self.commits.moved[i].next = self.holes[i].moved.val();
+            self.late_point[i].next = self.commits.late_point[i].val();
             self.solo_first[i].next = self.commits.solo_first[i].val();
             self.solo_second[i].next = self.commits.solo_second[i].val();
             self.erases[i].next = self.merge[i].erases.val();

@@ -133,7 +133,6 @@ impl Logic for Changes {
         }
         self.marks_begun.next = self.begun.q.val() & (!self.step.unmarks.val());
         self.check.marks.next = self.marks_begun.val() | self.events.val().takes | self.step.remarks.val();
-        self.check.disowns.next = !self.is_change.val();
         self.check.marked.next = self.events.val().taken;
         if self.begun.q.val() {
             self.check.marked.next = self.begun_vertex.q.val();
@@ -144,6 +143,7 @@ impl Logic for Changes {
         self.unmarks.next = self.step.unmarks.val();
         self.check.unmarks.next = self.step.unmarks.val();
         self.check.unmarked.next = self.step.unmarked.val();
+        self.check.unmarked_owns.next = self.events.val().owns;
         self.taken.next = self.check.taken.val();
 
         self.late.has_changed.next = self.changed.q.val();

@@ -1,7 +1,8 @@
 //! The item on offer, with what the memories say about its vertex: whether it is in use, whether ids are kept for it,
-//! and its point, which is the place of an item that deletes or moves it.
+//! and its word in the vertex memory. That is the point of a vertex in use, and the place of an item that deletes or
+//! moves it. For a vertex that keeps ids it is these ids, which an item that inserts it carries as its `target`.
 //!
-//! 1. Bits and point come two clocks after they are asked for (`asks`), and are kept until the next time.
+//! 1. Bits and word come two clocks after they are asked for (`asks`), and are kept until the next time.
 //! 2. An item of a question stays as it is.
 //!
 //! Latency: 2 clocks from `asks` to `is_used`, and one more to `offered`; none for a question.
@@ -21,7 +22,7 @@ pub struct CheckedItem {
     pub is_change: Signal<In, Bit>,
     pub hole_runs: Signal<In, Bit>,
     pub vertex: Signal<In, VertexId>,
-    /// The bits and the point of the vertex are asked for at this edge, and come two clocks later.
+    /// The bits and the word of the vertex are asked for at this edge, and come two clocks later.
     pub asks: Signal<In, Bit>,
     pub bit_in_use: Signal<In, Bit>,
     pub bit_has_ids: Signal<In, Bit>,
@@ -66,6 +67,8 @@ impl Logic for CheckedItem {
         }
         if self.hole_runs.val() {
             self.built.next.place = self.kept_place.q.val();
+        } else if self.is_change.val() {
+            self.built.next.target = self.kept_place.q.val();
         }
         self.offered.next.context = self.dealt.val().context;
         self.offered.next.item = self.built.val();

@@ -21,7 +21,8 @@ pub const PART_ADDRESS_BITS: usize = 5;
 
 crate::packed! {
     /// An item of a run: its place, and for a change its vertex, and whether ids are kept for that. The place of a move
-    /// is the one that its vertex leaves, and `target` the new one.
+    /// is the one that its vertex leaves, and `target` the new one. The `target` of an `InsertAs` has the ids that are
+    /// kept for its vertex, see [`KeptIds`](crate::engine::KeptIds).
     pub struct Item {
         pub number: Bits<24>,
         pub place: Point,

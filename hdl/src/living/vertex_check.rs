@@ -13,7 +13,8 @@
 //! 6. A vertex to delete or move is refused with the outcome `Missing` if it is not in use. Otherwise it is not in use
 //!    from then on, and owns ids that are kept for it. Its point is fetched and becomes the place of the item. A vertex
 //!    that has moved, or has to stay, is in use again when its part is given (`marks`).
-//! 7. A vertex that comes with an `Insert` owns none (`disowns`), and neither does one that was never known.
+//! 7. A vertex that comes with an `Insert` owns none, and neither does one that was never known. Of one that falls out
+//!    of use, `unmarked_owns` says it.
 //!
 //! Latency: 4 clocks from an item to its offer or refusal, and one more for each bit that is cleared; none for a
 //! question.
@@ -69,12 +70,13 @@ pub struct VertexCheck {
     pub refuses: Signal<Out, Bit>,
     pub is_beyond: Signal<Out, Bit>,
     pub is_noted: Signal<In, Bit>,
-    /// A vertex comes into use, or falls out of use, at this edge.
+    /// A vertex comes into use, or falls out of use, at this edge; in the latter case it has ids that are kept for it
+    /// or not.
     pub marks: Signal<In, Bit>,
     pub marked: Signal<In, VertexId>,
-    pub disowns: Signal<In, Bit>,
     pub unmarks: Signal<In, Bit>,
     pub unmarked: Signal<In, VertexId>,
+    pub unmarked_owns: Signal<In, Bit>,
     /// A vertex whose point is wanted, unless the vertex memory is asked for another one (`fetches`), and its point two
     /// clocks later.
     pub wanted: Signal<Out, VertexId>,
@@ -141,14 +143,13 @@ impl Logic for VertexCheck {
         self.bits.clears.next = self.clears.val();
         self.bits.marks.next = self.marks.val();
         self.bits.marked.next = self.marked.val();
-        self.bits.disowns.next = self.disowns.val();
         self.bits.unmarks.next = self.unmarks.val();
         self.bits.unmarked.next = self.unmarked.val();
+        self.bits.unmarked_owns.next = self.unmarked_owns.val();
         self.bits.asked.next = self.asked.val();
         self.bits.written.next = self.asked.val();
         self.bits.writes.next = false;
         self.bits.used.next = !self.hole_runs.val();
-        self.bits.writes_ids.next = self.hole_runs.val();
         self.bits.owns.next = self.hole_runs.val();
         self.is_refused.next = self.is_high.val() | (self.item.is_used.val() & (!self.is_unknown.val()));
         if self.hole_runs.val() {
@@ -190,7 +191,6 @@ impl Logic for VertexCheck {
                     self.bits.writes.next = true;
                     self.bits.written.next = self.known.q.val();
                     self.bits.used.next = self.is_last.val();
-                    self.bits.writes_ids.next = true;
                     self.known.d.next = self.known.q.val() + self.one.val();
                     if self.is_last.val() {
                         self.state.d.next = CheckState::Offer;

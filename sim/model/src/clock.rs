@@ -225,7 +225,7 @@ impl ClockModel {
         self.memory.clock(&was, &wires);
         self.release.clock(&wires, &mut self.memory, self.config, self.defect);
         now.write.clock(&was);
-        now.coming_point = wires.moved;
+        now.coming_point = wires.coming_point;
         now.late_point = LatePoint::after(was.late_point, was.coming_point, &wires);
         now.storing = wires.stored;
         if let Some(write) = living_write {

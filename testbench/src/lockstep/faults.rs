@@ -331,7 +331,10 @@ pub const CHANGE_FAULTS: &[Fault] = &[
     },
     Fault { name: "contexts_take_points_after_a_change", pieces: &[piece("if (@) begin", "only_retries$0", "1'b0")] },
     Fault { name: "points_do_not_wait", pieces: &[piece("if (@) begin", "point_waits$0", "1'b0")] },
-    Fault { name: "duplicates_of_runs_are_counted", pieces: &[piece("if (@) begin", "change_runs$0", "1'b0")] },
+    Fault {
+        name: "duplicates_of_runs_are_counted",
+        pieces: &[piece("if (@) begin\n            events", "change_runs$0", "1'b0")],
+    },
     // M11, in three parts: locks, parts and points.
     Fault {
         name: "run_ends_with_locks",
@@ -433,7 +436,20 @@ pub const CHANGE_FAULTS: &[Fault] = &[
         pieces: &[piece("restarts = @;", "hole[(64'h31)+:(1)] & has_left", "1'b0")],
     },
     Fault { name: "side_of_a_hole_is_not_mended", pieces: &[piece("third = @;", "side$write", "110'b0")] },
-    Fault { name: "kept_ids_are_forgotten", pieces: &[piece("has_ids = @;", "owned$q", "1'b0")] },
+    Fault { name: "kept_ids_are_forgotten", pieces: &[piece("has_ids = @;", "pair$q[32'h1e]", "1'b0")] },
+    Fault {
+        name: "ids_of_a_deletion_go_lost",
+        pieces: &[piece("if (@ & (~moving[(64'h0)+:(1)])) begin", "kept[(64'h0)+:(1)]", "1'b0")],
+    },
+    Fault { name: "ids_of_a_duplicate_go_lost", pieces: &[piece("if (@ & has_own) begin", "ends_in_vain", "1'b0")] },
+    Fault {
+        name: "duplicate_has_no_ids",
+        pieces: &[piece("check$unmarked_owns = @;", "events[(64'h5e)+:(1)]", "1'b0")],
+    },
+    Fault {
+        name: "ids_of_a_ring_are_those_of_the_next_item",
+        pieces: &[piece("handed$write_enable = @;", "commit[(64'h0)+:(1)]", "1'b1")],
+    },
     Fault { name: "free_records_are_read_out", pieces: &[piece("lives = comes & @ &", "(~is_free)", "1'b1")] },
     // M12, M14: the rules of moves.
     Fault { name: "edges_are_not_looked_at", pieces: &[piece("stays = @;", "(~turns_left) | conflict", "1'b1")] },

@@ -11,8 +11,8 @@ use super::kept_ids::KeptIds;
 use super::release::Release;
 use super::ring_reader::RingReader;
 use crate::engine::types::{
-    CommitJob, CommitRequest, Committed, EntryWrite, InnerWrite, KeptWrite, LockClear, LockWrite, ReleaseJob,
-    ReleaseRequest, Released, SoloStart, Start, TriangleId, Write,
+    Arrival, CommitJob, CommitRequest, Committed, EntryWrite, InnerWrite, KeptWrite, LockClear, LockWrite, Moving,
+    ReleaseJob, ReleaseRequest, Released, SoloProgress, SoloStart, Start, TriangleId, VertexId, Visit, Write,
 };
 use crate::prelude::*;
 use incircle_protocol::Config;
@@ -49,18 +49,24 @@ pub struct CommitPath {
     pub released: Signal<Out, Released>,
     /// The lock memory is being cleared after reset.
     pub sweeps: Signal<Out, Bit>,
-    /// In a core with deletions: a hole requests a write in the next clock, so a commit requests none (`holds`); a
-    /// context that starts, and whether ids are kept for its vertex; ids that a vertex keeps; the last write of a
-    /// deletion is requested; a solo insertion starts or is at work, and its two ids; ids that were kept are in use
-    /// again.
+    /// In a core with deletions: a hole requests a write in the next clock, so a commit requests none (`holds`); the
+    /// last write of a deletion is requested; a solo insertion starts or is at work, and its two ids; ids that were
+    /// kept are in use again; and the ports of [`KeptIds`] of these names.
     pub holds: Vec<Signal<In, Bit>>,
     pub start: Vec<Signal<In, Start>>,
     pub owns: Vec<Signal<In, Bit>>,
+    pub moving: Vec<Signal<In, Moving>>,
+    pub visit: Vec<Signal<In, Visit>>,
+    pub vertex: Vec<Signal<In, VertexId>>,
+    pub is_duplicate: Vec<Signal<In, Bit>>,
+    pub owned: Vec<Signal<Out, Bit>>,
+    pub moved: Vec<Signal<In, Arrival>>,
+    pub late_point: Vec<Signal<Out, Arrival>>,
     pub kept: Vec<Signal<In, KeptWrite>>,
     pub erases: Vec<Signal<In, Bit>>,
     pub erased: Vec<Signal<In, ReleaseRequest>>,
     pub solo_start: Vec<Signal<In, SoloStart>>,
-    pub solo_is_at_work: Vec<Signal<In, Bit>>,
+    pub solo: Vec<Signal<In, SoloProgress>>,
     pub solo_first: Vec<Signal<Out, TriangleId>>,
     pub solo_second: Vec<Signal<Out, TriangleId>>,
     pub returns: Vec<Signal<Out, Bit>>,
@@ -92,11 +98,18 @@ impl CommitPath {
             holds: vec![Signal::default()],
             start: vec![Signal::default()],
             owns: vec![Signal::default()],
+            moving: vec![Signal::default()],
+            visit: vec![Signal::default()],
+            vertex: vec![Signal::default()],
+            is_duplicate: vec![Signal::default()],
+            owned: vec![Signal::default()],
+            moved: vec![Signal::default()],
+            late_point: vec![Signal::default()],
             kept: vec![Signal::default()],
             erases: vec![Signal::default()],
             erased: vec![Signal::default()],
             solo_start: vec![Signal::default()],
-            solo_is_at_work: vec![Signal::default()],
+            solo: vec![Signal::default()],
             solo_first: vec![Signal::default()],
             solo_second: vec![Signal::default()],
             returns: vec![Signal::default()],
@@ -157,22 +170,29 @@ impl Logic for CommitPath {
             self.star.holds[i].next = self.holds[i].val();
             self.kept_ids[i].start.next = self.start[i].val();
             self.kept_ids[i].owns.next = self.owns[i].val();
+            self.kept_ids[i].moving.next = self.moving[i].val();
+            self.kept_ids[i].visit.next = self.visit[i].val();
+            self.kept_ids[i].vertex.next = self.vertex[i].val();
+            self.kept_ids[i].is_duplicate.next = self.is_duplicate[i].val();
+            self.owned[i].next = self.kept_ids[i].owned.val();
+            self.kept_ids[i].moved.next = self.moved[i].val();
+            self.late_point[i].next = self.kept_ids[i].late_point.val();
             self.kept_ids[i].kept.next = self.kept[i].val();
             self.kept_ids[i].commit.next = self.commit.val();
             self.kept_ids[i].job.next = self.rings.head_job.val();
             self.kept_ids[i].loads.next = self.star.loads[i].val();
             self.kept_ids[i].takes.next = self.star.takes_fresh.val();
             self.kept_ids[i].solo_start.next = self.solo_start[i].val();
-            self.kept_ids[i].solo_is_at_work.next = self.solo_is_at_work[i].val();
+            self.kept_ids[i].solo.next = self.solo[i].val();
             self.solo_first[i].next = self.ids.fresh.val();
             self.solo_second[i].next = self.ids.fresh_after[i].val();
-            if self.kept_ids[i].solo_has_ids.val() {
+            if self.kept_ids[i].owned.val() {
                 self.solo_first[i].next = self.kept_ids[i].solo_first.val();
                 self.solo_second[i].next = self.kept_ids[i].solo_second.val();
                 self.ids.solo_inserts.next = false;
             }
             self.returns[i].next = (self.star.committed.val().valid & self.kept_ids[i].has_ids.val())
-                | (self.solo_inserts.val() & self.kept_ids[i].solo_has_ids.val());
+                | (self.solo_inserts.val() & self.kept_ids[i].owned.val());
             if self.kept_ids[i].has_ids.val() {
                 self.star.fresh.next = self.kept_ids[i].id.val();
                 self.ids.takes.next = false;

@@ -18,6 +18,8 @@ pub struct ChangeView {
     pub outcome: Signal<In, Outcome>,
     pub commit: Signal<In, CommitRequest>,
     pub vertex: Signal<In, VertexId>,
+    /// Ids are kept for that vertex, or for that of a solo insertion at work.
+    pub owns: Signal<In, Bit>,
     /// The completed visit may ask for visits.
     pub may_ask: Signal<In, Bit>,
     pub committed: Signal<In, Committed>,
@@ -50,6 +52,7 @@ impl Logic for ChangeView {
         self.job.next = self.committed.val().job;
         self.events.next.hands_over = self.commit.val().valid;
         self.events.next.duplicate = self.outcome.val().duplicate;
+        self.events.next.owns = self.owns.val();
         self.events.next.is_root = self.outcome.val().root_enable;
         self.events.next.vertex = self.vertex.val();
         self.events.next.commit_ends = self.committed.val().valid;

@@ -159,6 +159,7 @@ impl Logic for HoleWriter {
         self.erased.next.valid = self.valid.q.val().get_bit(5) & self.job5.q.val().ends;
         self.erased.next.job = self.ended.val();
         self.kept.next.valid = self.valid.q.val().get_bit(5) & self.job5.q.val().ends;
+        self.kept.next.context = self.job5.q.val().context;
         self.kept.next.vertex = self.job5.q.val().vertex;
         self.kept.next.first = self.request.q.val().id;
         self.kept.next.second = self.base_link.q.val().id;

@@ -90,6 +90,8 @@ crate::packed! {
         pub moves_in_place: bool,
         pub puts_out: bool,
         pub put_out_context: ContextId,
+        /// In a clock with the end of an attempt or of a solo insertion: ids are kept for its vertex.
+        pub owns: bool,
     }
 
     /// A context starts the solo insertion of its point.

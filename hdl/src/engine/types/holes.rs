@@ -158,9 +158,10 @@ crate::packed! {
         pub right: VertexId,
     }
 
-    /// Two ids that are free, and the vertex that keeps them.
+    /// Two ids that are free, the vertex that keeps them, and the context that has deleted it.
     pub struct KeptWrite {
         pub valid: bool,
+        pub context: ContextId,
         pub vertex: VertexId,
         pub first: TriangleId,
         pub second: TriangleId,

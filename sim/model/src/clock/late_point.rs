@@ -1,4 +1,5 @@
-//! The point of a move in place, on its way to the vertex memory.
+//! The point of a move in place, or the word that takes the place of the point of a vertex that is out of the mesh, on
+//! its way to the vertex memory. That word has the two ids that are kept for the vertex.
 //!
 //! Hardware twin: the block `LatePoint`.
 
@@ -19,7 +20,7 @@ pub(super) struct LatePoint {
 }
 
 impl LatePoint {
-    pub fn new(vertex: u32, point: Point) -> Self {
+    pub fn new((vertex, point): (u32, Point)) -> Self {
         Self { vertex, point, waited: 0 }
     }
 

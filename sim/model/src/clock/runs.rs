@@ -204,7 +204,7 @@ impl ClockModel {
             put_out: wires.erased.filter(|_| wires.moves).map(|job| job.context),
             taken: wires.start.and_then(|start| start.id),
             launch: wires.launch,
-            fetches: self.pipeline.fetches() || wires.moves && wires.new_point.is_some() || was.has_late_point(),
+            fetches: self.pipeline.fetches() || was.storing.is_some() || was.has_late_point(),
             all_rest: was.contexts.rest,
             arrival: was.command.came.then(|| (was.command.came_id, self.memory.vertex(was.command.came_id))),
             arrived: was.command.arrived,

@@ -51,7 +51,8 @@ pub(super) struct Registers {
     pub write: Write,
     /// The write that the filling of a hole requests.
     pub filled: Write,
-    /// The point of the move in place that has ended in the clock before, and the one that waits to be written.
+    /// The point of the move in place that has ended in the clock before, or the word of a vertex that is out of the
+    /// mesh; and the one that waits to be written.
     pub coming_point: Option<LatePoint>,
     pub late_point: Option<LatePoint>,
     /// The vertex of an item that has begun in the clock before, whose point is stored in this one.
@@ -75,7 +76,7 @@ impl Registers {
         registers
     }
 
-    /// Whether the point of a move in place is not written yet.
+    /// Whether the point of a move in place, or the word of a vertex that is out of the mesh, is not written yet.
     pub(super) fn has_late_point(&self) -> bool {
         self.coming_point.is_some() || self.late_point.is_some()
     }
@@ -105,10 +106,10 @@ pub(super) struct Wires {
     pub is_quiet: bool,
     /// The point that is accepted at this edge.
     pub new_vertex: Option<(u32, Point)>,
-    /// The move in place that ends, whose point is to be written.
-    pub moved: Option<LatePoint>,
+    /// The point of a move in place that ends, or the word of a vertex that is out of the mesh, which is to be written.
+    pub coming_point: Option<LatePoint>,
     /// The vertex whose point is stored in the next clock, because its item begins. The vertex whose point is stored in
-    /// this one, for that reason or as that of a move in place.
+    /// this one, for that reason or as one that has waited.
     pub stored: Option<(u32, Point)>,
     pub new_point: Option<(u32, Point)>,
     /// The walk that a context starts.
@@ -190,7 +191,7 @@ impl ClockModel {
             outcome.is_some_and(ends) || outcome.is_some() && finds && done.as_ref().is_some_and(may_settle);
         let holds = holes.is_some_and(Holes::writes_next);
         let moved = outcome.filter(|outcome| outcome.moves_in_place).map(|outcome| outcome.context);
-        let moved = moved.map(|context| LatePoint::new(self.memory.point_id[context], self.memory.target[context]));
+        let moved = moved.map(|context| (self.memory.point_id[context], self.memory.target[context]));
         let late = was.late_point.filter(|late| late.is_due(self.pipeline.fetches(), was.coming_point.is_some()));
         let stored = launch.filter(|launch| launch.stores).map(|launch| (launch.item.vertex, launch.item.place));
         Wires {
@@ -204,7 +205,7 @@ impl ClockModel {
             read: was.responder.read_request(),
             answer_ends: was.responder.ends(inputs.response_ready),
             is_quiet: was.finished_points.is_done(was) && rests,
-            moved,
+            coming_point: moved.or(self.restored(outcome.as_ref(), finds)).map(LatePoint::new),
             stored,
             new_point: was.storing.or(late.map(|late| late.arrival())),
             new_vertex: word.filter(|_| takes_point).map(|word| (was.command.arrived, point(word))),
@@ -249,6 +250,18 @@ impl ClockModel {
     /// Whether a run of moves is under way.
     fn moves(&self) -> bool {
         self.questions.as_ref().is_some_and(Questions::moves)
+    }
+
+    /// A vertex that is out of the mesh, whose kept ids take the place of its point: a run of deletions deletes it, or
+    /// its point turns out to be that of another vertex.
+    fn restored(&self, outcome: Option<&Outcome>, finds: bool) -> Option<(u32, Point)> {
+        let solo = &self.registers.solo;
+        let deleted = self.holes.as_ref().filter(|_| self.deletes()).and_then(|holes| holes.kept(&self.memory));
+        let duplicate = outcome.filter(|outcome| outcome.duplicate && !finds);
+        let duplicate = duplicate.map(|outcome| self.memory.point_id[outcome.context]);
+        let vertex = duplicate.or(Some(solo.vertex()).filter(|_| solo.finds_duplicate()));
+        let restored = vertex.and_then(|vertex| Some((vertex, self.memory.kept(vertex)?)));
+        deleted.or(restored).map(|(vertex, [first, second])| (vertex, point(first | second << 15)))
     }
 
     /// Whether a visit of a deletion or of a move is the last one in flight of its star, or the test of its last edge.

@@ -39,9 +39,11 @@ fn random_scripts(name: &str, config: Config, scripts: usize, points: u64, items
 /// A script of [`Rig`].
 type Script = fn(&mut Rig) -> Result<(), Box<Mismatch>>;
 
-/// The scripts that show faults: of all commands, and of moves of a few vertices, again and again.
+/// The scripts that show faults: of all commands; of moves of a few vertices, again and again; and of vertices that
+/// leave the mesh, and come back where others are.
 const MIXED: Script = |rig| rig.script(24, 60);
 const OF_FEW: Script = |rig| rig.script_of_few();
+const OF_DUPLICATES: Script = |rig| rig.script_of_duplicates();
 
 /// Runs scripts on a core with faults, until a port differs from the model. Returns the number of that script, and the
 /// mismatch.
@@ -57,13 +59,14 @@ fn first_mismatch(pair: Lockstep, script: Script, scripts: usize) -> Option<(usi
 #[test]
 fn cores_with_a_broken_block_of_changes_are_caught() {
     let pair = |faults: &[&str]| Lockstep::faulty("faulty_core_changes", CROWD, 85, faults);
-    for script in [MIXED, OF_FEW] {
+    for script in [MIXED, OF_FEW, OF_DUPLICATES] {
         assert!(first_mismatch(pair(&[]), script, 60).is_none(), "the sound core equals its model");
     }
     let mut missed = Vec::new();
     for Fault { name, .. } in CHANGE_FAULTS {
-        let caught = first_mismatch(pair(&[name]), MIXED, 1500);
-        match caught.or_else(|| first_mismatch(pair(&[name]), OF_FEW, 300)) {
+        let kinds = [(MIXED, 1500), (OF_FEW, 300), (OF_DUPLICATES, 60)];
+        let caught = kinds.into_iter().find_map(|(script, count)| first_mismatch(pair(&[name]), script, count));
+        match caught {
             Some((number, mismatch)) => println!("{name}: caught in script {number}, at port {}", mismatch.port),
             None => missed.push(name),
         }

@@ -443,7 +443,50 @@ impl Rig {
         }
         self.read()
     }
+
+    /// A script that takes vertices out of the mesh, tries to put them back where others are, and then where none is.
+    /// So the ids of records that are kept for them outlive a duplicate.
+    pub fn script_of_duplicates(&mut self) -> Result<(), Box<Mismatch>> {
+        const SIDE: u64 = 1 << 6;
+        self.clear()?;
+        let points: BTreeSet<u32> = (0..24).map(|_| place(&mut self.random, SIDE)).collect();
+        self.insert(&points.into_iter().collect::<Vec<u32>>())?;
+        for _ in 0..3 {
+            let mut vertices: Vec<u32> = self.living.keys().copied().collect();
+            self.random.shuffle(&mut vertices);
+            if vertices.len() < 2 * TAKEN {
+                break;
+            }
+            let (out, others) = vertices.split_at(TAKEN);
+            let taken: Vec<u32> = others.iter().take(TAKEN).map(|vertex| self.living[vertex]).collect();
+            let pairs = |vertices: &[u32], places: &[u32]| -> Vec<Item> {
+                vertices.iter().zip(places).map(|(&vertex, &place)| [vertex, place]).collect()
+            };
+            if self.random.once_in(2) {
+                self.delete(out)?;
+            } else {
+                self.move_to(&pairs(out, &taken))?;
+            }
+            let out: Vec<u32> = out.iter().copied().filter(|vertex| !self.living.contains_key(vertex)).collect();
+            self.insert_as(&pairs(&out, &taken))?;
+            let mut free = BTreeSet::new();
+            while free.len() < out.len() {
+                let place = place(&mut self.random, SIDE);
+                if !self.living.values().any(|&other| other == place) {
+                    free.insert(place);
+                }
+            }
+            let free: Vec<u32> = free.into_iter().collect();
+            self.insert_as(&pairs(&out, &free))?;
+            self.places.extend(free);
+        }
+        self.read()
+    }
 }
+
+/// Number of vertices that leave the mesh at a time, and of places that are then taken, in
+/// [`Rig::script_of_duplicates`].
+const TAKEN: usize = 4;
 
 fn place(random: &mut SplitMix64, side: u64) -> u32 {
     (random.below(side) | random.below(side) << 16) as u32

@@ -65,6 +65,11 @@ impl Holes {
         self.writer.ends()
     }
 
+    /// The vertex of that deletion, and the ids that it keeps.
+    pub(super) fn kept(&self, memory: &Memory) -> Option<(u32, [u32; 2])> {
+        self.writer.kept(memory)
+    }
+
     /// Whether a write will be requested in the next clock, so that a commit requests none.
     pub(super) fn writes_next(&self) -> bool {
         self.writer.writes_next()

@@ -73,6 +73,14 @@ impl Writer {
         Some(CommitJob { context: job.context, vertex, locks, ..CommitJob::default() })
     }
 
+    /// The vertex of that deletion, and the ids of the two records that become free.
+    pub(super) fn kept(&self, memory: &Memory) -> Option<(u32, [u32; 2])> {
+        let job = self.stages[LATENCY].as_ref()?;
+        let (vertex, _) = job.ends?;
+        let at = |place: usize| memory.entries[job.context][place].cavity_record;
+        Some((vertex, [at(job.i), at(job.j)]))
+    }
+
     /// Whether a write will be requested in the next clock.
     pub(super) fn writes_next(&self) -> bool {
         let is_at = |clocks: usize| self.stages[clocks].is_some();
@@ -91,9 +99,8 @@ impl Writer {
             self.write_first(&job, memory);
         } else if self.stages[LATENCY].is_some() {
             self.write = self.links[0];
-            if let Some((job, (vertex, _))) = self.stages[LATENCY].and_then(|job| Some((job, job.ends?))) {
-                let at = |place: usize| memory.entries[job.context][place].cavity_record;
-                memory.keep(vertex, [at(job.i), at(job.j)]);
+            if let Some((vertex, ids)) = self.kept(memory) {
+                memory.keep(vertex, ids);
             }
         } else if self.stages[LATENCY + 1].is_some() {
             self.write = self.links[1];

@@ -1,6 +1,6 @@
 //! Runs `VertexCheck` in Rust and in Verilog beside a set of vertices in use: each item must have the outcome that the
-//! set says, whatever comes into use and falls out of use meanwhile. A vertex that is deleted keeps ids from then on,
-//! and its item has its point.
+//! set says, whatever comes into use and falls out of use meanwhile. A vertex that is deleted keeps ids from then on. Its
+//! item has its word in the vertex memory, and so has an item that inserts a vertex.
 
 use std::collections::BTreeSet;
 
@@ -12,8 +12,23 @@ use incircle_testkit::SplitMix64;
 named_ports!(
     VertexCheck,
     [
-        reset, clears, capacity, arrived, dealt, is_change, hole_runs, vertex, accepted, is_noted, marks, marked,
-        disowns, unmarks, unmarked, fetches, fetched
+        reset,
+        clears,
+        capacity,
+        arrived,
+        dealt,
+        is_change,
+        hole_runs,
+        vertex,
+        accepted,
+        is_noted,
+        marks,
+        marked,
+        unmarks,
+        unmarked,
+        unmarked_owns,
+        fetches,
+        fetched
     ],
     [taken, offered, refuses, is_beyond, wanted],
     clock
@@ -49,6 +64,8 @@ impl Rig {
         self.block.set("unmarks", unmarks);
         self.block.set("marked", vertex);
         self.block.set("unmarked", vertex);
+        let owns = self.random.once_in(2);
+        self.block.set("unmarked_owns", owns);
         let fetches = self.random.once_in(3);
         self.block.set("fetches", fetches);
         self.block.set("fetched", point(self.fetched[1]));
@@ -61,6 +78,8 @@ impl Rig {
         }
         if unmarks {
             self.in_use.remove(&vertex);
+            self.keepers.remove(&vertex);
+            self.keepers.extend(Some(vertex).filter(|_| owns));
         }
     }
 
@@ -81,14 +100,12 @@ impl Rig {
         self.block.set("arrived", count);
         for vertex in 2..count {
             self.block.set("marks", true);
-            self.block.set("disowns", true);
             self.block.set("marked", vertex);
             self.block.set("unmarks", false);
             self.block.settle();
             self.block.edge();
             self.in_use.insert(vertex);
         }
-        self.block.set("disowns", false);
         self.arrived = count;
         self.edge(None);
     }
@@ -115,6 +132,7 @@ impl Rig {
                 self.block.expect("offered_item_vertex", vertex);
                 if !hole_runs {
                     self.block.expect("offered_item_owns", self.keepers.contains(&vertex));
+                    self.block.expect("offered_item_target", point(vertex));
                 }
             }
             if hole_runs && is_offered {
@@ -141,7 +159,7 @@ fn vertex_check_refuses_what_cannot_be_inserted_or_deleted() {
     let random = SplitMix64::new(82);
     let (in_use, keepers) = (BTreeSet::new(), BTreeSet::new());
     let mut rig = Rig { block, random, in_use, keepers, arrived: 0, fetched: [0; 2] };
-    for port in ["clears", "dealt_valid", "is_change", "hole_runs", "accepted", "is_noted", "disowns"] {
+    for port in ["clears", "dealt_valid", "is_change", "hole_runs", "accepted", "is_noted"] {
         rig.block.set(port, false);
     }
     rig.block.set("capacity", POINTS);
